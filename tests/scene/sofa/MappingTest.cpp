@@ -34,6 +34,8 @@ TEST_F(SofaMapping, RigidFramesAreChosenByIndex) {
   EXPECT_THAT(box(kTwoFrames, points + "<RigidMapping index='1'/>"), IsBox(Corners{21, 0, 0, 22, 0, 0}));
   EXPECT_THAT(box(kTwoFrames, points + "<RigidMapping index='0' indexFromEnd='1'/>"),
               IsBox(Corners{21, 0, 0, 22, 0, 0}));
+  EXPECT_THAT(box(kTwoFrames, points + "<RigidMapping index='1' indexFromEnd='1'/>"),
+              IsBox(Corners{11, 0, 0, 12, 0, 0}));
   EXPECT_THAT(box(kTwoFrames, points + "<RigidMapping rigidIndexPerPoint='1 0'/>"), IsBox(Corners{12, 0, 0, 21, 0, 0}));
   EXPECT_THAT(box(kTwoFrames, points + "<RigidMapping repartition='1'/>"), IsBox(Corners{11, 0, 0, 22, 0, 0}));
   EXPECT_THAT(box(kTwoFrames, points + "<RigidMapping repartition='0 2'/>"), IsBox(Corners{21, 0, 0, 22, 0, 0}));
@@ -159,6 +161,9 @@ TEST_F(SofaMapping, PointsFallOntoTheFirstEdgeBesideWhichTheyLieElseTheLast) {
               IsBox(Corners{2, 1, 0, 2, 1, 0}));
   EXPECT_THAT(box(edges, "<MechanicalObject position='3 -1 0'/><BarycentricMapping/>"),
               IsBox(Corners{2, -1, 0, 2, -1, 0}));
+  EXPECT_THAT(box("<MechanicalObject position='1 0 0 3 0 0'/><MeshTopology edges='0 1'/>",
+                  "<MechanicalObject position='1.5 9 0'/><BarycentricMapping/>"),
+              IsBox(Corners{1.5, 0, 0, 1.5, 0, 0}));
 }
 
 TEST_F(SofaMapping, PointsInAHexahedronOfAMeshFollowItsCorners) {
@@ -221,9 +226,10 @@ TEST_F(SofaMapping, SeveralStatesAreJoinedWholeOrInPart) {
               IsBox(Corners{1, 1, 1, 3, 3, 3}));
   EXPECT_THAT(box(kTwoStates, child + "<SubsetMultiMapping input='@../a @../b' output='@c' indexPairs='0 1 1 0'/>"),
               IsBox(Corners{2, 2, 2, 3, 3, 3}));
-  EXPECT_THAT(complaintIn(kTwoStates + ("<Node>" + child) +
-                          "<SubsetMultiMapping input='@../a @../b' output='@c' indexPairs='1 1'/><PointModel/></Node>"),
-              HasSubstr("a point that isn't there"));
+  for (const std::string pairs : {"1 1", "2 0"})
+    EXPECT_THAT(complaintIn(kTwoStates + ("<Node>" + child) + "<SubsetMultiMapping input='@../a @../b' output='@c' " +
+                            "indexPairs='" + pairs + "'/><PointModel/></Node>"),
+                HasSubstr("a point that isn't there"));
 }
 
 TEST_F(SofaMapping, ARigidFrameCarriesADeformableBody) {
