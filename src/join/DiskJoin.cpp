@@ -130,7 +130,7 @@ void DiskJoin::openFolder() {
 /// Returns whether the folder is locked; it is not where a join ended meanwhile.
 bool DiskJoin::tryToOpenFolder() {
   std::error_code problem;
-  fs::create_directories(m_options.work, problem);
+  fs::create_directory(m_options.work, problem);  // none above it: a folder of that name is likely mistyped
   if (problem) throw FileError(m_options.work, "cannot be made: " + problem.message());
   const std::vector<std::string> names = scene::folderNames(m_options.work, problem);
   if (problem == std::errc::no_such_file_or_directory) return false;

@@ -172,6 +172,16 @@ TEST(Join, BadInputIsNamedAndNothingIsWritten) {
   EXPECT_THROW(joinFiles(std::vector{with.folder.path() / "missing.npy"}, output), FileError);
 }
 
+TEST(Join, AFolderThatIsNotThereIsNotMade) {
+  const JoinCase with(toDouble(randomBoxes(10, 16)));
+  const std::filesystem::path missing = with.folder.path() / "missing";
+  EXPECT_THROW(joinFiles(with.paths, missing / "pairs.npy"), FileError);
+  join::JoinOptions options = with.options();
+  options.work = missing / "work";
+  EXPECT_THROW(joinFiles(with.paths, with.folder.path() / "pairs.npy", options), FileError);
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(with.folder.path()), {}), 1) << "the input alone";
+}
+
 TEST(Join, AFailureAtTheEndCanBeResumed) {
   const std::vector<Box> boxes = toDouble(randomBoxes(500, 17));
   const JoinCase with(boxes);
