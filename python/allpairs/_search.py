@@ -234,10 +234,11 @@ def count(
     ignore: npt.ArrayLike | None = None,
     strategy: Strategy = "auto",
     threads: int = 1,
+    max_pairs: int | None = None,
 ) -> int:
     """The number of pairs of `overlaps`; uses memory independent of that number.
 
-    The parameters are those of `overlaps`.
+    The parameters are those of `overlaps`. More pairs than ``max_pairs`` raise LimitExceeded as soon as they are found.
 
     Examples
     --------
@@ -264,10 +265,12 @@ def count_between(
     ignore: npt.ArrayLike | None = None,
     strategy: Strategy = "auto",
     threads: int = 1,
+    max_pairs: int | None = None,
 ) -> int:
     """The number of pairs of `overlaps_between`; uses memory independent of that number.
 
-    The parameters are those of `overlaps_between`.
+    The parameters are those of `overlaps_between`. More pairs than ``max_pairs`` raise LimitExceeded as soon as they are
+    found.
 
     Examples
     --------

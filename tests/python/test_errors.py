@@ -203,10 +203,15 @@ def test_two_sets_take_their_settings_in_pairs():
 
 
 def test_more_pairs_than_allowed_say_how_many():
-    with pytest.raises(allpairs.LimitExceeded) as caught:
-        allpairs.overlaps(BOXES, max_pairs=5)
-    assert caught.value.count == 6
-    assert len(allpairs.overlaps(BOXES, max_pairs=6)) == 6
+    for call in (allpairs.overlaps, allpairs.count):
+        with pytest.raises(allpairs.LimitExceeded) as caught:
+            call(BOXES, max_pairs=5)
+        assert caught.value.count == 6
+    assert len(allpairs.overlaps(BOXES, max_pairs=6)) == allpairs.count(BOXES, max_pairs=6) == 6
+    expected = allpairs.count_between(BOXES, BOXES)
+    assert allpairs.count_between(BOXES, BOXES, max_pairs=expected) == expected
+    with pytest.raises(allpairs.LimitExceeded):
+        allpairs.count_between(BOXES, BOXES, max_pairs=expected - 1)
 
 
 def test_wrong_types_are_type_errors():
