@@ -111,8 +111,11 @@ Shell shellOf(const std::vector<Corners>& triangles) {
   shell.volume = Volume::Winding;
   const bool isClosed = volumeOf(chosen(triangles, shell.twoSided)) != Volume::None;
   if (shell.triangles.empty()) {
+    std::sort(shell.twoSided.begin(), shell.twoSided.end());
     return {.volume = isClosed ? Volume::Parity : Volume::None, .triangles = std::move(shell.twoSided), .twoSided = {}};
   }
+  std::sort(shell.triangles.begin(), shell.triangles.end());
+  std::sort(shell.twoSided.begin(), shell.twoSided.end());
   if (!isClosed) shell.twoSided.clear();  // fins, and walls between solids of one part
   return shell;
 }

@@ -38,7 +38,7 @@ enum class Volume : std::uint8_t {
   Parity,   ///< Each edge is shared by an even number: a ray from inside leaves through an odd number of triangles.
 };
 
-/// The triangles, by their numbers, that a ray from inside leaves through.
+/// The triangles, by their numbers in ascending order, that a ray from inside leaves through.
 struct Shell {
   Volume volume = Volume::None;
   std::vector<std::uint32_t> triangles;

@@ -55,6 +55,24 @@ std::vector<int> crossingsOf(const ExactPart& part, const std::vector<std::uint3
   return counts;
 }
 
+/// Calls `found` with each triangle that the ray from a point passes, and the way it faces.
+template <class Found>
+void forEachPassed(const ExactPart& part, const Point& point, const Found& found) {
+  const Box ray = rayFrom(point);
+  std::vector<int> open{0};
+  while (!open.empty()) {
+    const int number = open.back();
+    open.pop_back();
+    if (!overlap(part.nodeBox(number), ray)) continue;
+    const auto& node = part.hierarchy().getBV(number);
+    if (!node.isLeaf()) {
+      open.insert(open.end(), {node.leftChild(), node.rightChild()});
+    } else if (const int way = crossing(part.triangles()[static_cast<std::size_t>(node.primitiveId())], point)) {
+      found(static_cast<std::uint32_t>(node.primitiveId()), way);
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<Point> pointsInside(const ExactPart& part, std::span<const Point> points) {
@@ -70,6 +88,21 @@ std::vector<Point> pointsInside(const ExactPart& part, std::span<const Point> po
     if (isIn || twoSided[i] % 2 != 0) inside.push_back(points[i]);
   }
   return inside;
+}
+
+bool isInside(const ExactPart& part, const Point& point) {
+  const Shell& shell = part.shell();
+  const bool isWinding = shell.volume == Volume::Winding;
+  const auto holds = [](const std::vector<std::uint32_t>& triangles, std::uint32_t triangle) {
+    return std::binary_search(triangles.begin(), triangles.end(), triangle);
+  };
+  int count = 0;
+  int twoSided = 0;
+  forEachPassed(part, point, [&](std::uint32_t triangle, int way) {
+    if (holds(shell.triangles, triangle)) count += isWinding ? way : 1;
+    if (holds(shell.twoSided, triangle)) ++twoSided;
+  });
+  return (isWinding ? count != 0 : count % 2 != 0) || twoSided % 2 != 0;
 }
 
 }  // namespace allpairs::exact

@@ -14,4 +14,7 @@ namespace allpairs::exact {
 ///            a smaller one in z, so that no ray meets an edge (simulation of simplicity, Edelsbrunner and Mücke 1990).
 [[nodiscard]] std::vector<Point> pointsInside(const ExactPart& part, std::span<const Point> points);
 
+/// The same of one point, of a part that has a volume.
+[[nodiscard]] bool isInside(const ExactPart& part, const Point& point);
+
 }  // namespace allpairs::exact
