@@ -17,15 +17,6 @@
 namespace allpairs::exact {
 namespace {
 
-Box common(const Box& a, const Box& b) {
-  Box box;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    box.min[axis] = std::max(a.min[axis], b.min[axis]);
-    box.max[axis] = std::min(a.max[axis], b.max[axis]);
-  }
-  return box;
-}
-
 /// The corners, the middles of the sides and the middle of all.
 void addPointsOf(const Polygon& polygon, std::vector<Point>& points) {
   const auto corners = polygon.corners();
@@ -35,22 +26,6 @@ void addPointsOf(const Polygon& polygon, std::vector<Point>& points) {
   }
   points.push_back(polygon.middle());
 }
-
-/// Points of a grid in a polygon: where triangles are large, the deepest point may be far from all corners and middles.
-void addGridOf(const Polygon& polygon, int steps, std::vector<Point>& points) {
-  const auto corners = polygon.corners();
-  const Point middle = polygon.middle();
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    const Point along = (corners[(i + 1) % corners.size()] - corners[i]) / steps;
-    const Point inward = (middle - corners[i]) / steps;
-    for (int u = 0; u < steps; ++u) {
-      for (int v = 0; u + v < steps; ++v) points.push_back(corners[i] + u * along + v * inward);
-    }
-  }
-}
-
-constexpr double kGridPoints = 2000.0;  // about so many are asked where few triangles are
-constexpr int kMostSteps = 16;
 
 void keepEachOnce(std::vector<Point>& points) {
   std::sort(points.begin(), points.end(), isBefore);
@@ -124,26 +99,17 @@ void addBesideCrossings(const ExactPart& outer, const ExactPart& inner, std::vec
 struct Samples {
   std::vector<Point> plain;
   std::vector<Point> beside;  ///< Of lines in which the surfaces cross.
-  std::vector<Point> grid;
 };
 
 Samples samples(const ExactPart& outer, const ExactPart& inner, const std::vector<TrianglePair>& pairs) {
   Samples points;
   const Box shared = common(outer.box(), inner.box());
-  std::vector<Polygon> polygons;
   for (std::size_t i = 0; i < inner.triangles().size(); ++i) {
     if (!overlap(shared, inner.triangleBoxes()[i])) continue;
     Polygon polygon(inner.triangles()[i]);
     polygon.cut(shared);
     if (polygon.empty()) continue;
     addPointsOf(polygon, points.plain);
-    polygons.push_back(polygon);
-  }
-  // A fan of n triangles with s steps has n s (s + 1) / 2 points; a polygon has about four corners.
-  const double each = kGridPoints / (1.0 + 2.0 * static_cast<double>(polygons.size()));
-  const int steps = std::min(kMostSteps, static_cast<int>(std::sqrt(each)));
-  for (const Polygon& polygon : polygons) {
-    if (steps > 2) addGridOf(polygon, steps, points.grid);
   }
   for (const TrianglePair& pair : pairs) {
     Polygon polygon(inner.triangles()[pair.first]);
@@ -268,8 +234,7 @@ Deepest deepestWithin(const ExactPart& outer, const ExactPart& inner, const std:
   const Samples points = samples(outer, inner, innerAndOuter);
   DeepestSearch search(outer);
   search.among(pointsInside(outer, points.plain));
-  search.among(pointsInside(outer, points.beside));
-  return search.among(pointsInside(outer, points.grid));  // only where one of them is deeper
+  return search.among(pointsInside(outer, points.beside));  // only where one of them is deeper
 }
 
 }  // namespace allpairs::exact

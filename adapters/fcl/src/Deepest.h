@@ -23,7 +23,7 @@ struct TrianglePair {
 
 /// Looks for the deepest point of `inner` within `outer`, among the corners and middles of the parts of inner's
 /// triangles that lie in outer's box, and in the boxes of the triangles of outer that they meet, and halfway between
-/// those that cross one of them.
+/// those that cross one of them. Exact where a vertex or a flat face is deepest; elsewhere others may be deeper.
 [[nodiscard]] Deepest deepestWithin(const ExactPart& outer, const ExactPart& inner,
                                     const std::vector<TrianglePair>& innerAndOuter);
 

@@ -176,6 +176,15 @@ void include(Box& box, const Point& point) {
   }
 }
 
+Box common(const Box& a, const Box& b) {
+  Box box;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    box.min[axis] = std::max(a.min[axis], b.min[axis]);
+    box.max[axis] = std::min(a.max[axis], b.max[axis]);
+  }
+  return box;
+}
+
 ExactPart::ExactPart(std::vector<Corners> triangles, double radius)
     : m_triangles(std::move(triangles)),
       m_radius(radius),

@@ -31,6 +31,9 @@ using Hierarchy = ::fcl::BVHModel<::fcl::OBBRSSd>;
 /// The box widened to hold a point.
 void include(Box& box, const Point& point);
 
+/// What two boxes share.
+[[nodiscard]] Box common(const Box& a, const Box& b);
+
 /// How the triangles of a part tell inside from outside.
 enum class Volume : std::uint8_t {
   None,     ///< They don't close.

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "Around.h"
+#include "Deeper.h"
 #include "Deepest.h"
 #include "Enclosure.h"
 #include "Flush.h"
@@ -176,8 +177,17 @@ class Look {
     m_reachesIntoSecond = m_first.radius() == 0.0 && ofFirst.found && ofFirst.depth > m_sameTolerance;
     const bool isInside = ofFirst.found || ofSecond.found;
     if (isInside) takeDeeper(ofFirst, ofSecond);
+    if (isInside) lookDeeper(std::max(ofFirst.depth, ofSecond.depth));
     if (!isInside && m_meeting.surfacesMeet) m_meeting.depth = std::max(0.0, m_radius - m_coreDistance);
     m_meeting.isDeep = m_meeting.depth > m_tolerance;
+  }
+
+  /// Of what is as good as on the surface a deeper point is of no use.
+  void lookDeeper(double known) {
+    if (known <= m_sameTolerance) return;
+    const Deepest ofFirst = deeperWithin(m_second, m_first, known);
+    const Deepest ofSecond = deeperWithin(m_first, m_second, std::max(known, ofFirst.depth));
+    if (ofFirst.found || ofSecond.found) takeDeeper(ofFirst, ofSecond);
   }
 
   /// Where all surfaces that bound what the two share lie on each other, no point of one lies in the other.
