@@ -99,12 +99,7 @@ template <class T>
 std::array<T, 6> exactBoundsOf(const BoxReader& reader) {
   Box bounds = kEmptyBox;
   for (std::size_t i = 0; i < reader.size(); ++i) {
-    const Box box = reader.boxes()[reader.idOf(i)];
-    if (isEmpty(box)) continue;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      bounds.min[axis] = std::min(bounds.min[axis], box.min[axis]);
-      bounds.max[axis] = std::max(bounds.max[axis], box.max[axis]);
-    }
+    bounds = merge(bounds, reader.boxes()[reader.idOf(i)]);
   }
   std::array<T, 6> result;
   std::transform(bounds.min.begin(), bounds.min.end(), result.begin(), [](double v) { return static_cast<T>(v); });
