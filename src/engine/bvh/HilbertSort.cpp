@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 
 #include "bvh/CurveKey.h"
 #include "bvh/RadixSort.h"
@@ -44,10 +43,6 @@ void forEachDenseCell(std::span<CurveKey> boxes, Take&& take) {
 }
 
 }  // namespace
-
-unsigned HilbertSort::KeyRun::usedBits() const noexcept {
-  return std::max(kIndexBits, kIndexBits + static_cast<unsigned>(std::bit_width(allKeys)));
-}
 
 /// Writes the keys of boxes with their indices.
 void HilbertSort::writeKeys(const BoxReader& reader, const CurveGrid& grid, const BoxList& boxes, bool emptyToo,

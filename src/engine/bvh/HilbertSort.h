@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -43,7 +44,9 @@ class HilbertSort {
     bool exact = true;          ///< Whether the lanes of all boxes are exactly the boxes.
 
     /// The number of low bits in which the keys with their indices can differ.
-    [[nodiscard]] unsigned usedBits() const noexcept;
+    [[nodiscard]] unsigned usedBits() const noexcept {
+      return kIndexBits + static_cast<unsigned>(std::bit_width(allKeys));
+    }
   };
 
   std::size_t readKeys(const BoxReader& reader, CurveKey* keyed, bool emptyToo, Executor& executor);

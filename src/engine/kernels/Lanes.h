@@ -44,14 +44,6 @@ struct LaneBox {
   std::array<float, 6> bound;
 };
 
-[[nodiscard]] inline bool touch(const LaneBox& a, const LaneBox& b) noexcept {
-  bool result = true;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    result = result && a.bound[axis] <= b.bound[axis + 3] && b.bound[axis] <= a.bound[axis + 3];
-  }
-  return result;
-}
-
 /// What overlaps nothing.
 inline constexpr LaneBox kNeverLanes{{kNever, kNever, kNever, -kNever, -kNever, -kNever}};
 
