@@ -15,6 +15,7 @@
 
 #if HWY_ONCE
 
+#include <algorithm>
 #include <array>
 #include <iterator>
 #include <utility>
@@ -33,29 +34,20 @@ constexpr std::pair<std::int64_t, TableFunction> kTargets[] = {
     {HWY_SSSE3, HWY_CHOOSE_SSSE3(kernelTable)},     {HWY_NEON, HWY_CHOOSE_NEON(kernelTable)},
 };
 
-/// Those that this processor supports, and the scalar ones. Trivially destructible: searches may run after static
-/// destructors.
-struct KernelList {
-  /// Those of the list, the ones that the build requires of processors, and the scalar ones.
-  std::array<const Kernels*, std::size(kTargets) + 2> kernels{};
-  std::array<std::string_view, std::size(kTargets) + 2> names{};
-  std::size_t size = 0;
-
-  void add(const Kernels& added) {
-    kernels[size] = &added;
-    names[size++] = added.name;
-  }
-};
+/// Those of the list that this processor supports, the ones that the build requires of processors, and the scalar ones;
+/// null behind the last one. Trivially destructible, as are their names: searches may run after static destructors.
+using KernelList = std::array<const Kernels*, std::size(kTargets) + 2>;
 
 KernelList availableKernels() {
-  KernelList result;
+  KernelList result{};
+  std::size_t size = 0;
   const std::int64_t supported = supportedTargets();
   for (const auto& [bit, table] : kTargets) {
-    if (table != nullptr && (supported & bit) != 0) result.add(*table());
+    if (table != nullptr && (supported & bit) != 0) result[size++] = table();
   }
   const Kernels* baseline = HWY_STATIC_DISPATCH(kernelTable)();
-  if (result.size == 0 || result.kernels[result.size - 1] != baseline) result.add(*baseline);
-  if (baseline->name != scalarKernels().name) result.add(scalarKernels());
+  if (size == 0 || result[size - 1] != baseline) result[size++] = baseline;
+  if (baseline->name != scalarKernels().name) result[size] = &scalarKernels();
   return result;
 }
 
@@ -67,15 +59,21 @@ const KernelList& allKernels() {
 }  // namespace
 
 const Kernels* findKernels(std::string_view instructionSet) {
-  const KernelList& list = allKernels();
-  if (instructionSet.empty()) return list.kernels.front();
-  for (std::size_t i = 0; i < list.size; ++i) {
-    if (list.names[i] == instructionSet) return list.kernels[i];
+  for (const Kernels* kernels : allKernels()) {
+    if (kernels != nullptr && (instructionSet.empty() || kernels->name == instructionSet)) return kernels;
   }
   return nullptr;
 }
 
-std::span<const std::string_view> kernelNames() { return {allKernels().names.data(), allKernels().size}; }
+std::span<const std::string_view> kernelNames() {
+  static const auto names = [] {
+    std::array<std::string_view, std::tuple_size_v<KernelList>> result{};
+    std::transform(allKernels().begin(), allKernels().end(), result.begin(),
+                   [](const Kernels* kernels) { return kernels != nullptr ? kernels->name : std::string_view(); });
+    return result;
+  }();
+  return std::span(names).first(static_cast<std::size_t>(std::find(names.begin(), names.end(), "") - names.begin()));
+}
 
 }  // namespace allpairs::engine
 #endif  // HWY_ONCE
