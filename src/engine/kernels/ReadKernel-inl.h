@@ -109,28 +109,19 @@ BlockRead readFloat32(const BoxPlaces<float>& places, LaneBlock& block) {
   return result;
 }
 
-/// Widens an interval by a distance, and by a slack that is larger than what all roundings of the exact expression,
-/// max + ((distance + margin) + margin), can add up to.
-struct Widener {
-  hn::Vec<DoubleTag> half, magnitude;
-
-  HWY_INLINE Widener(const Widening& widening, std::size_t at) {
-    const DoubleTag d;
-    const auto margin = widening.margins != nullptr ? hn::LoadU(d, widening.margins + at) : hn::Zero(d);
-    half = hn::Add(hn::Set(d, widening.half), margin);
-    // The sum of a distance and two margins is infinite if it overflows, to which one of them has to be large.
-    half = hn::IfThenElse(hn::Lt(half, hn::Set(d, 0x1p1022)), half, hn::Inf(d));
-    magnitude = hn::Add(hn::Abs(hn::Set(d, widening.half)), hn::Abs(margin));
-  }
-
-  /// A minimum, or a negated maximum. Infinity stays what it is, unless it is taken from itself: that is a NaN.
-  [[nodiscard]] HWY_INLINE hn::Vec<DoubleTag> below(hn::Vec<DoubleTag> bound) const {
-    const DoubleTag d;
-    const auto units = hn::Set(d, 0x1p-48);  // Sixteen units in the last place of a double.
-    const auto finite = hn::Min(hn::Add(hn::Abs(bound), magnitude), hn::Set(d, std::numeric_limits<double>::max()));
-    return hn::Sub(hn::Sub(bound, half), hn::Mul(units, finite));
-  }
-};
+/// A minimum, or a negated maximum, widened by half a distance and a margin, and by a slack that is larger than what all
+/// roundings of the exact expression, max + ((distance + margin) + margin), can add up to. Infinity stays what it is,
+/// unless it is taken from itself: that is a NaN.
+HWY_INLINE DoubleVector widened(DoubleVector bound, DoubleVector halfDistance, DoubleVector margin) {
+  const DoubleTag d;
+  const auto sum = hn::Add(halfDistance, margin);
+  // The sum of a distance and two margins is infinite if it overflows, to which one of them has to be large.
+  const auto half = hn::IfThenElse(hn::Lt(sum, hn::Set(d, 0x1p1022)), sum, hn::Inf(d));
+  const auto magnitude = hn::Add(hn::Abs(halfDistance), hn::Abs(margin));
+  const auto units = hn::Set(d, 0x1p-48);  // Sixteen units in the last place of a double.
+  const auto finite = hn::Min(hn::Add(hn::Abs(bound), magnitude), hn::Set(d, std::numeric_limits<double>::max()));
+  return hn::Sub(hn::Sub(bound, half), hn::Mul(units, finite));
+}
 
 /// Sixteen boxes whose bounds are read as doubles: load(i, bound) reads those of the boxes from i on.
 ///
@@ -142,7 +133,8 @@ HWY_INLINE BlockRead readDoubles(const Load& load, const Widening& widening, Lan
   const HalfFloatTag df;
   BlockRead result{.exact = !kWidens};
   for (std::size_t i = 0; i < kFanOut; i += hn::Lanes(d)) {
-    const Widener widener(widening, i);
+    const auto half = hn::Set(d, widening.half);
+    const auto margin = widening.margins != nullptr ? hn::LoadU(d, widening.margins + i) : hn::Zero(d);
     DoubleVector bound[6];
     load(i, bound);
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -151,8 +143,8 @@ HWY_INLINE BlockRead readDoubles(const Load& load, const Widening& widening, Lan
       auto max = hn::Neg(bound[axis + 3]);
       result.emptyLanes |= bitsOf(d, hn::Gt(min, hn::Neg(max))) << i;
       if constexpr (kWidens) {
-        min = widener.below(min);
-        max = widener.below(max);
+        min = widened(min, half, margin);
+        max = widened(max, half, margin);
       }
       auto low = lower(hn::Sub(min, from), result.exact);
       auto high = hn::Neg(lower(hn::Add(max, from), result.exact));
