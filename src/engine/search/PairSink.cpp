@@ -55,8 +55,9 @@ Pair* PairSink::roomFor(Hits& hits, std::size_t most) {
   return m_pairs.data() + m_size;
 }
 
+/// Takes so many pairs that have been written behind the others.
 void PairSink::take(std::size_t count) {
-  m_size += count;
+  if (!m_options->countOnly) m_size += count;
   m_count += count;
   checkLimit(m_options->maxPairs, m_count);
   checkStop(m_options->stop);
@@ -65,19 +66,14 @@ void PairSink::take(std::size_t count) {
 
 void PairSink::receive(Hits& hits) {
   if (hits.size == 0) return;
-  const std::size_t begin = m_size;
-  makeRoom(begin + hits.size + kVectorSlack);
-  const std::span<Pair> pairs(m_pairs.data() + begin, hits.size);
+  makeRoom(m_size + hits.size + kVectorSlack);
+  const std::span<Pair> pairs(m_pairs.data() + m_size, hits.size);
   m_options->kernels->writePairs(hits, m_options->side, pairs.data());
   m_exactTests += m_options->test.exactTestsOf(hits);
-  m_size += m_options->test.select(pairs, hits);
+  const std::size_t kept = m_options->test.select(pairs, &hits);
   hits.size = 0;
   hits.doubts = 0;
-  m_count += m_size - begin;
-  if (m_options->countOnly) m_size = begin;
-  checkLimit(m_options->maxPairs, m_count);
-  checkStop(m_options->stop);
-  if (m_options->emit) emit();
+  take(kept);
 }
 
 void PairSink::emit() {

@@ -117,25 +117,17 @@ class PairTest {
     return (!m_exact || !isDoubtful || touches(pair)) && (!m_filtered || allows(pair));
   }
 
-  /// Moves the pairs that it keeps to the front; returns their number.
-  [[nodiscard]] std::size_t select(std::span<Pair> pairs) const {
+  /// Moves the pairs that it keeps to the front; returns their number. Of the pairs of hits only those in doubt need the
+  /// exact test, if the kernels noted them.
+  [[nodiscard]] std::size_t select(std::span<Pair> pairs, const Hits* hits = nullptr) const {
     if (!needed()) return pairs.size();
-    std::size_t kept = 0;
-    for (const Pair pair : pairs) {
-      if (keeps(pair)) pairs[kept++] = pair;
-    }
-    return kept;
-  }
-
-  /// The same for the pairs of some hits, of which only those in doubt need the exact test, if the kernels noted them.
-  [[nodiscard]] std::size_t select(std::span<Pair> pairs, const Hits& hits) const {
-    if (!needed()) return pairs.size();
-    if (!m_filtered && !m_ascending && hits.doubt != nullptr) return selectInDoubt(pairs, {hits.doubt, hits.doubts});
+    const bool areNoted = hits != nullptr && hits->doubt != nullptr;
+    if (areNoted && !m_filtered && !m_ascending) return selectInDoubt(pairs, {hits->doubt, hits->doubts});
     std::size_t kept = 0;
     std::size_t doubt = 0;
     for (std::size_t i = 0; i < pairs.size(); ++i) {
       const Pair pair = pairs[i];
-      const bool isDoubtful = hits.doubt == nullptr || (doubt < hits.doubts && hits.doubt[doubt] == i);
+      const bool isDoubtful = !areNoted || (doubt < hits->doubts && hits->doubt[doubt] == i);
       doubt += isDoubtful ? 1U : 0U;
       if (keeps(pair, isDoubtful)) pairs[kept++] = pair;
     }
