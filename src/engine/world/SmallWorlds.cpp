@@ -172,10 +172,12 @@ void SmallWorlds::findChanged(std::span<const BoxId> changed, Worker& worker,
   }
 }
 
-template void SmallWorlds::findChanged<float>(std::span<const BoxId>, Worker&,
-                                              FunctionRef<void(std::span<Pair>)>) const;
-template void SmallWorlds::findChanged<double>(std::span<const BoxId>, Worker&,
-                                               FunctionRef<void(std::span<Pair>)>) const;
+void SmallWorlds::searchChanged(std::span<const BoxId> changed, FunctionRef<void(std::span<Pair>, std::size_t)> take) {
+  m_workers.withOne([&](std::size_t index, Worker& worker) {
+    const auto taken = [&](std::span<Pair> pairs) { take(pairs, index); };
+    m_boxes->isFloat64() ? findChanged<double>(changed, worker, taken) : findChanged<float>(changed, worker, taken);
+  });
+}
 
 std::size_t SmallWorlds::select(std::size_t world, std::span<Pair> pairs) const {
   const bool hasShared = world != m_members.everyWorld() && !m_members.shared().empty();

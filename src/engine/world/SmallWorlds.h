@@ -56,13 +56,7 @@ class SmallWorlds {
 
   /// Calls take(pairs, worker) with the pairs of some boxes of the only world, each first in its pairs, and of all
   /// boxes: also with itself, and twice with another one of the same boxes.
-  template <class Take>
-  void searchChanged(std::span<const BoxId> changed, const Take& take) {
-    m_workers.withOne([&](std::size_t index, Worker& worker) {
-      const auto taken = [&](std::span<Pair> pairs) { take(pairs, index); };
-      m_boxes->isFloat64() ? findChanged<double>(changed, worker, taken) : findChanged<float>(changed, worker, taken);
-    });
-  }
+  void searchChanged(std::span<const BoxId> changed, FunctionRef<void(std::span<Pair>, std::size_t)> take);
 
   /// Moves the pairs that are pairs of this world to the front; returns their number.
   std::size_t select(std::size_t world, std::span<Pair> pairs) const;
