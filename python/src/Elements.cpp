@@ -9,13 +9,13 @@
 
 #include "Arguments.h"
 #include "Bindings.h"
+#include "Executors.h"
 #include "Gil.h"
 #include "Interrupts.h"
 #include "NumberArray.h"
 #include "PairArray.h"
 #include "allpairs/Error.h"
 #include "allpairs/elements/ElementCandidates.h"
-#include "allpairs/parallel/TbbExecutor.h"
 
 namespace allpairs::python {
 namespace py = pybind11;
@@ -48,7 +48,7 @@ class MeshCandidates {
   /// A buffer of triangles, (k, 3), for each mesh, and how many vertices each has.
   MeshCandidates(const std::vector<py::buffer>& triangles, const std::vector<std::size_t>& vertexCounts,
                  const CandidateSettings& settings)
-      : m_executor(settings.threads == 1 ? nullptr : std::make_unique<parallel::TbbExecutor>(settings.threads)),
+      : m_executor(executorOf(settings.threads)),
         m_candidates(topologyOf(triangles, vertexCounts), {.distance = settings.distance,
                                                            .withinMeshes = settings.within,
                                                            .betweenMeshes = settings.between,

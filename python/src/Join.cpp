@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "Bindings.h"
+#include "Executors.h"
 #include "Interrupts.h"
-#include "allpairs/parallel/TbbExecutor.h"
 #include "allpairs/scene/BoxValues.h"
 
 namespace allpairs::python {
@@ -27,8 +27,7 @@ py::tuple joinFiles(const std::vector<std::filesystem::path>& inputs,
                     std::size_t threads) {
   const join::JoinSummary summary = stoppably(kLong, Runs::OnThreads, [&](const StopFlag& stop) {
     options.stop = &stop;
-    std::unique_ptr<Executor> executor;
-    if (threads != 1) executor = std::make_unique<parallel::TbbExecutor>(threads);
+    const std::unique_ptr<Executor> executor = executorOf(threads);
     options.executor = executor.get();
     return output ? join::joinFiles(inputs, *output, options) : join::countFiles(inputs, options);
   });

@@ -6,11 +6,11 @@
 #include <unordered_map>
 #include <utility>
 
+#include "Executors.h"
 #include "allpairs/Overlaps.h"
 #include "allpairs/StopFlag.h"
 #include "allpairs/collision/BruteForceBroadPhase.h"
 #include "allpairs/collision/CollisionPipeline.h"
-#include "allpairs/parallel/TbbExecutor.h"
 #include "allpairs/scene/ReadInput.h"
 
 namespace allpairs::python {
@@ -46,10 +46,6 @@ Table columnsOf(const BoxView::Corners<T>& corners, std::size_t size) {
   Table table = tableOf(const_cast<T*>(corners.min.data), 6 * size, 6);
   table.strides = {corners.min.boxStride * kSize, corners.min.axisStride * kSize};
   return table;
-}
-
-std::unique_ptr<Executor> executorOf(std::size_t threads) {
-  return threads == 1 ? nullptr : std::make_unique<parallel::TbbExecutor>(threads);
 }
 
 std::vector<Pair> detectBoxes(const BoxView& boxes, const DetectionOptions& options, const StopFlag& stop) {

@@ -6,17 +6,13 @@
 #include <utility>
 
 #include "Arguments.h"
+#include "Executors.h"
 #include "allpairs/Error.h"
 #include "allpairs/StopFlag.h"
-#include "allpairs/parallel/TbbExecutor.h"
 
 namespace allpairs::python {
 namespace py = pybind11;
 namespace {
-
-std::unique_ptr<Executor> executorOf(std::size_t threads) {
-  return threads == 1 ? nullptr : std::make_unique<parallel::TbbExecutor>(threads);
-}
 
 WorldOptions optionsOf(double distance, Order order, Executor* executor, const StopFlag& stop) {
   WorldOptions options;

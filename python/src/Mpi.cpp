@@ -9,11 +9,11 @@
 
 #include "Bindings.h"
 #include "Boxes.h"
+#include "Executors.h"
 #include "Gil.h"
 #include "IdPairArray.h"
 #include "Options.h"
 #include "allpairs/mpi/DistributedOverlaps.h"
-#include "allpairs/parallel/TbbExecutor.h"
 
 namespace allpairs::python {
 namespace py = pybind11;
@@ -22,15 +22,14 @@ namespace {
 /// A search over the communicator that has this handle in Fortran, which is a number in every MPI.
 class DistributedSearch {
  public:
-  DistributedSearch(MPI_Fint handle, const Options& options) {
+  DistributedSearch(MPI_Fint handle, const Options& options) : m_executor(executorOf(options.threads)) {
     const OverlapOptions& given = options.engine;
-    mpi::DistributedOptions settings{.distance = given.distance,
+    const mpi::DistributedOptions settings{.distance = given.distance,
                                      .region = given.region,
                                      .first = given.filter.first,
                                      .second = given.filter.second,
+                                     .executor = m_executor.get(),
                                      .maxPairs = given.maxPairs};
-    if (options.threads != 1) m_executor = std::make_unique<parallel::TbbExecutor>(options.threads);
-    settings.executor = m_executor.get();
     m_search = std::make_unique<mpi::DistributedOverlaps>(MPI_Comm_f2c(handle), settings);
   }
 

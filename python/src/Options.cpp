@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "Arguments.h"
-#include "allpairs/parallel/TbbExecutor.h"
+#include "Executors.h"
 
 namespace allpairs::python {
 namespace py = pybind11;
@@ -47,9 +47,7 @@ void Options::setIgnored(const py::buffer& pairs, bool oneSet) {
 }
 
 OverlapOptions Options::withExecutor(std::size_t boxes) {
-  if (threads != 1 && boxes >= kWorthThreads && !m_executor) {
-    m_executor = std::make_unique<parallel::TbbExecutor>(threads);
-  }
+  if (boxes >= kWorthThreads && !m_executor) m_executor = executorOf(threads);
   engine.executor = m_executor.get();
   return engine;
 }
