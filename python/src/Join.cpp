@@ -5,7 +5,6 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
-#include <array>
 #include <cstddef>
 #include <filesystem>
 #include <memory>
@@ -13,6 +12,7 @@
 #include <vector>
 
 #include "Bindings.h"
+#include "Bounds.h"
 #include "Executors.h"
 #include "Interrupts.h"
 #include "allpairs/scene/BoxValues.h"
@@ -48,9 +48,7 @@ void bindJoin(py::module_& module) {
   py::class_<join::JoinOptions>(module, "JoinOptions")
       .def(py::init<>())
       .def("set_region",
-           [](join::JoinOptions& options, const std::array<double, 6>& bounds) {
-             options.region = Box{{bounds[0], bounds[1], bounds[2]}, {bounds[3], bounds[4], bounds[5]}};
-           })
+           [](join::JoinOptions& options, const Bounds& region) { options.region = boxOf(region); })
       .def_readwrite("values", &join::JoinOptions::values)
       .def_readwrite("second_values", &join::JoinOptions::secondValues)
       .def_readwrite("distance", &join::JoinOptions::distance)

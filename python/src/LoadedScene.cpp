@@ -6,6 +6,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "Bounds.h"
 #include "Executors.h"
 #include "allpairs/Overlaps.h"
 #include "allpairs/StopFlag.h"
@@ -120,11 +121,7 @@ std::vector<Pair> pairsOf(const scene::SceneSearch& search, double timeStep, con
 LoadedScene::LoadedScene(const std::filesystem::path& path, const scene::ReadOptions& options)
     : m_content(read(path, options)) {
   if (const auto* scene = std::get_if<scene::Scene>(&m_content)) {
-    for (const auto& model : scene->models) {
-      const Box box = scene::modelRecord(*model).box;
-      m_rootBoxes.insert(m_rootBoxes.end(), box.min.begin(), box.min.end());
-      m_rootBoxes.insert(m_rootBoxes.end(), box.max.begin(), box.max.end());
-    }
+    for (const auto& model : scene->models) append(m_rootBoxes, scene::modelRecord(*model).box);
   }
   m_boxes = boxes();
   m_boxes.isReadOnly = true;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "Arguments.h"
+#include "Bounds.h"
 #include "Executors.h"
 #include "allpairs/Error.h"
 #include "allpairs/StopFlag.h"
@@ -176,11 +177,7 @@ MovingBoxes::Numbers MovingBoxes::boxes(const py::buffer& ids) {
   std::vector<double> bounds;
   bounds.reserve(6 * chosen.size());
   alone([&](World& world) {
-    for (const BoxId id : chosen) {
-      const Box box = world.box(id);
-      bounds.insert(bounds.end(), box.min.begin(), box.min.end());
-      bounds.insert(bounds.end(), box.max.begin(), box.max.end());
-    }
+    for (const BoxId id : chosen) append(bounds, world.box(id));
   });
   return std::make_unique<NumberArray<double>>(std::move(bounds), 6);
 }
@@ -205,9 +202,7 @@ py::tuple MovingBoxes::state() {
     for (BoxId id = 0; id < world.idBound(); ++id) {
       if (!world.contains(id)) continue;
       ids.push_back(id);
-      const Box box = world.box(id);
-      bounds.insert(bounds.end(), box.min.begin(), box.min.end());
-      bounds.insert(bounds.end(), box.max.begin(), box.max.end());
+      append(bounds, world.box(id));
       const BoxProperties properties = world.properties(id);
       bits.insert(bits.end(), {properties.category, properties.mask, properties.group, properties.isStatic ? 1U : 0U,
                                properties.world});

@@ -23,8 +23,6 @@ class Options {
   OverlapOptions engine;
   std::size_t threads = 1;  ///< 0: as many as the machine runs at once.
 
-  void setRegion(const Box& region) { engine.region = region; }
-
   /// Contiguous buffers of one uint32 for each box of that side.
   void setGroups(Side side, const pybind11::buffer& values);
   void setCategories(Side side, const pybind11::buffer& values);

@@ -14,6 +14,7 @@
 
 #include "Arguments.h"
 #include "Bindings.h"
+#include "Bounds.h"
 #include "Boxes.h"
 #include "BufferProtocol.h"
 #include "IdPairArray.h"
@@ -32,10 +33,12 @@ using partition::Cell;
 using partition::Cut;
 using partition::IdPair;
 using partition::Partition;
-using Bounds = std::array<double, 6>;
 using RealArray = NumberArray<double>;
 
-Cell cellOf(const Bounds& bounds) { return {{bounds[0], bounds[1], bounds[2]}, {bounds[3], bounds[4], bounds[5]}}; }
+Cell cellOf(const Bounds& bounds) {
+  const Box box = boxOf(bounds);
+  return {box.min, box.max};
+}
 
 py::buffer_info idsOf(const py::buffer& ids) {
   py::buffer_info held = ids.request();
@@ -82,10 +85,7 @@ std::uint64_t countBetweenInCell(const Boxes& first, const Boxes& second, const 
 
 std::unique_ptr<RealArray> cellsOf(const Partition& partition) {
   std::vector<double> numbers;
-  for (const Cell& cell : partition.cells()) {
-    numbers.insert(numbers.end(), cell.min.begin(), cell.min.end());
-    numbers.insert(numbers.end(), cell.max.begin(), cell.max.end());
-  }
+  for (const Cell& cell : partition.cells()) append(numbers, cell);
   return std::make_unique<RealArray>(std::move(numbers), 6);
 }
 

@@ -2,11 +2,11 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
-#include <array>
 #include <memory>
 #include <utility>
 
 #include "Bindings.h"
+#include "Bounds.h"
 #include "BufferProtocol.h"
 #include "Interrupts.h"
 #include "LoadedScene.h"
@@ -15,8 +15,6 @@
 namespace allpairs::python {
 namespace py = pybind11;
 namespace {
-
-using Bounds = std::array<double, 6>;
 
 // NOLINTNEXTLINE(readability-function-size): the arguments that Python gives.
 std::shared_ptr<LoadedScene> load(const std::filesystem::path& path, std::vector<std::filesystem::path> searchRoots,
@@ -73,9 +71,7 @@ void bindScene(py::module_& module) {
       .def_readwrite("strategy", &DetectionOptions::strategy)
       .def_readwrite("threads", &DetectionOptions::threads)
       .def_readwrite("verify", &DetectionOptions::verify)
-      .def("set_region", [](DetectionOptions& self, const Bounds& b) {
-        self.region = Box{{b[0], b[1], b[2]}, {b[3], b[4], b[5]}};
-      });
+      .def("set_region", [](DetectionOptions& self, const Bounds& region) { self.region = boxOf(region); });
   py::class_<LoadedScene, std::shared_ptr<LoadedScene>>(module, "Scene", tableProtocol<LoadedScene>())
       .def("__len__", &LoadedScene::size)
       .def("model", &modelOf)

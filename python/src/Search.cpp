@@ -11,6 +11,7 @@
 
 #include "Batches.h"
 #include "Bindings.h"
+#include "Bounds.h"
 #include "Boxes.h"
 #include "BufferProtocol.h"
 #include "NumberArray.h"
@@ -75,10 +76,6 @@ std::uint64_t countPairsBetween(const Boxes& first, const Boxes& second, Options
   });
 }
 
-Box regionOf(const std::array<double, 6>& bounds) {
-  return {{bounds[0], bounds[1], bounds[2]}, {bounds[3], bounds[4], bounds[5]}};
-}
-
 void bindOptions(py::module_& module) {
   py::enum_<Side>(module, "Side").value("FIRST", Side::First).value("SECOND", Side::Second);
   py::enum_<Order>(module, "Order")
@@ -97,7 +94,7 @@ void bindOptions(py::module_& module) {
       .def("set_order", [](Options& self, Order order) { self.engine.order = order; })
       .def("set_strategy", [](Options& self, Strategy strategy) { self.engine.strategy = strategy; })
       .def("set_max_pairs", [](Options& self, std::uint64_t count) { self.engine.maxPairs = count; })
-      .def("set_region", [](Options& self, const std::array<double, 6>& box) { self.setRegion(regionOf(box)); })
+      .def("set_region", [](Options& self, const Bounds& region) { self.engine.region = boxOf(region); })
       .def("set_groups", &Options::setGroups)
       .def("set_categories", &Options::setCategories)
       .def("set_masks", &Options::setMasks)
