@@ -43,8 +43,6 @@ std::vector<std::uint32_t> flat(const Rows& rows) {
 /// ElementCandidates that Python may use from several threads, which wait for each other without the GIL.
 class MeshCandidates {
  public:
-  using Indices = std::unique_ptr<NumberArray<std::uint32_t>>;
-
   /// A buffer of triangles, (k, 3), for each mesh, and how many vertices each has.
   MeshCandidates(const std::vector<py::buffer>& triangles, const std::vector<std::size_t>& vertexCounts,
                  const CandidateSettings& settings)
@@ -94,12 +92,10 @@ class MeshCandidates {
     return search([kind](elements::ElementCandidates& candidates) { return candidates.count(kind); });
   }
 
-  [[nodiscard]] Indices edges() const {
-    return std::make_unique<NumberArray<std::uint32_t>>(flat(m_candidates.topology().edges()), 2);
-  }
+  [[nodiscard]] std::unique_ptr<IdArray> edges() const { return arrayOf(flat(m_candidates.topology().edges()), 2); }
 
-  [[nodiscard]] Indices triangles() const {
-    return std::make_unique<NumberArray<std::uint32_t>>(flat(m_candidates.topology().triangles()), 3);
+  [[nodiscard]] std::unique_ptr<IdArray> triangles() const {
+    return arrayOf(flat(m_candidates.topology().triangles()), 3);
   }
 
  private:

@@ -16,7 +16,7 @@ inline std::unique_ptr<OffsetArray> arrayOf(const std::vector<partition::IdPair>
   std::vector<std::uint64_t> numbers;
   numbers.reserve(2 * pairs.size());
   for (const partition::IdPair& pair : pairs) numbers.insert(numbers.end(), {pair.first, pair.second});
-  return std::make_unique<OffsetArray>(std::move(numbers), 2);
+  return arrayOf(std::move(numbers), 2);
 }
 
 }  // namespace allpairs::python

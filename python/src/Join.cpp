@@ -47,8 +47,7 @@ void bindJoin(py::module_& module) {
       .def_readwrite("mask", &scene::BoxValueFiles::masks);
   py::class_<join::JoinOptions>(module, "JoinOptions")
       .def(py::init<>())
-      .def("set_region",
-           [](join::JoinOptions& options, const Bounds& region) { options.region = boxOf(region); })
+      .def("set_region", [](join::JoinOptions& options, const Bounds& region) { options.region = boxOf(region); })
       .def_readwrite("values", &join::JoinOptions::values)
       .def_readwrite("second_values", &join::JoinOptions::secondValues)
       .def_readwrite("distance", &join::JoinOptions::distance)

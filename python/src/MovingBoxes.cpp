@@ -80,8 +80,7 @@ struct Found {
   std::vector<double> numbers;
 
   [[nodiscard]] py::tuple arrays(py::ssize_t columns = 0) && {
-    return py::make_tuple(std::make_unique<NumberArray<std::uint32_t>>(std::move(ids), columns),
-                          std::make_unique<NumberArray<double>>(std::move(numbers), columns));
+    return py::make_tuple(arrayOf(std::move(ids), columns), arrayOf(std::move(numbers), columns));
   }
 };
 
@@ -124,7 +123,7 @@ MovingBoxes::MovingBoxes(double distance, Order order, std::size_t threads)
 
 MovingBoxes::Ids MovingBoxes::add(const Boxes& boxes, const Properties& properties) {
   // All memory first: boxes whose ids nobody knows could never be removed.
-  auto ids = std::make_unique<NumberArray<std::uint32_t>>(std::vector<BoxId>(boxes.set().size()));
+  auto ids = arrayOf(std::vector<BoxId>(boxes.set().size()));
   alone([&](World& world) {
     world.add(boxes.set(), properties.values(), ids->values());
     m_size = world.size();
@@ -179,7 +178,7 @@ MovingBoxes::Numbers MovingBoxes::boxes(const py::buffer& ids) {
   alone([&](World& world) {
     for (const BoxId id : chosen) append(bounds, world.box(id));
   });
-  return std::make_unique<NumberArray<double>>(std::move(bounds), 6);
+  return arrayOf(std::move(bounds), 6);
 }
 
 MovingBoxes::Ids MovingBoxes::ids() {
@@ -190,7 +189,7 @@ MovingBoxes::Ids MovingBoxes::ids() {
       if (world.contains(id)) ids.push_back(id);
     }
   });
-  return std::make_unique<NumberArray<std::uint32_t>>(std::move(ids));
+  return arrayOf(std::move(ids));
 }
 
 py::tuple MovingBoxes::state() {
@@ -209,10 +208,8 @@ py::tuple MovingBoxes::state() {
       margins.push_back(properties.margin);
     }
   });
-  return py::make_tuple(std::make_unique<NumberArray<std::uint32_t>>(std::move(ids)),
-                        std::make_unique<NumberArray<double>>(std::move(bounds), 6),
-                        std::make_unique<NumberArray<std::uint32_t>>(std::move(bits), 5),
-                        std::make_unique<NumberArray<double>>(std::move(margins)));
+  return py::make_tuple(arrayOf(std::move(ids)), arrayOf(std::move(bounds), 6), arrayOf(std::move(bits), 5),
+                        arrayOf(std::move(margins)));
 }
 
 py::tuple MovingBoxes::step() {

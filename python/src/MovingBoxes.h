@@ -45,8 +45,8 @@ class Properties {
 /// A World that Python may use from several threads, which wait for each other without the GIL.
 class MovingBoxes {
  public:
-  using Ids = std::unique_ptr<NumberArray<std::uint32_t>>;
-  using Numbers = std::unique_ptr<NumberArray<double>>;
+  using Ids = std::unique_ptr<IdArray>;
+  using Numbers = std::unique_ptr<RealArray>;
 
   MovingBoxes(double distance, Order order, std::size_t threads);
 

@@ -25,11 +25,11 @@ class DistributedSearch {
   DistributedSearch(MPI_Fint handle, const Options& options) : m_executor(executorOf(options.threads)) {
     const OverlapOptions& given = options.engine;
     const mpi::DistributedOptions settings{.distance = given.distance,
-                                     .region = given.region,
-                                     .first = given.filter.first,
-                                     .second = given.filter.second,
-                                     .executor = m_executor.get(),
-                                     .maxPairs = given.maxPairs};
+                                           .region = given.region,
+                                           .first = given.filter.first,
+                                           .second = given.filter.second,
+                                           .executor = m_executor.get(),
+                                           .maxPairs = given.maxPairs};
     m_search = std::make_unique<mpi::DistributedOverlaps>(MPI_Comm_f2c(handle), settings);
   }
 

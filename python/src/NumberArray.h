@@ -30,6 +30,13 @@ class NumberArray {
   Table m_table;
 };
 
+using IdArray = NumberArray<std::uint32_t>;
 using OffsetArray = NumberArray<std::uint64_t>;
+using RealArray = NumberArray<double>;
+
+template <class T>
+[[nodiscard]] std::unique_ptr<NumberArray<T>> arrayOf(std::vector<T> values, pybind11::ssize_t columns = 0) {
+  return std::make_unique<NumberArray<T>>(std::move(values), columns);
+}
 
 }  // namespace allpairs::python

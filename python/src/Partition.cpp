@@ -33,7 +33,6 @@ using partition::Cell;
 using partition::Cut;
 using partition::IdPair;
 using partition::Partition;
-using RealArray = NumberArray<double>;
 
 Cell cellOf(const Bounds& bounds) {
   const Box box = boxOf(bounds);
@@ -86,7 +85,7 @@ std::uint64_t countBetweenInCell(const Boxes& first, const Boxes& second, const 
 std::unique_ptr<RealArray> cellsOf(const Partition& partition) {
   std::vector<double> numbers;
   for (const Cell& cell : partition.cells()) append(numbers, cell);
-  return std::make_unique<RealArray>(std::move(numbers), 6);
+  return arrayOf(std::move(numbers), 6);
 }
 
 /// Rows of at, axis, low and high: small integers are exact in float64.
@@ -96,7 +95,7 @@ std::unique_ptr<RealArray> cutsOf(const Partition& partition) {
     numbers.insert(numbers.end(), {cut.at, static_cast<double>(cut.axis), static_cast<double>(cut.low),
                                    static_cast<double>(cut.high)});
   }
-  return std::make_unique<RealArray>(std::move(numbers), 4);
+  return arrayOf(std::move(numbers), 4);
 }
 
 Partition fromCuts(const std::vector<std::array<double, 4>>& rows) {
@@ -127,7 +126,7 @@ std::unique_ptr<OffsetArray> cellsOfBoxes(const Partition& partition, const Boxe
       std::sort(ordered.begin(), ordered.end());
       for (const std::uint32_t cell : ordered) rows.insert(rows.end(), {i, cell});
     });
-    return std::make_unique<OffsetArray>(std::move(rows), 2);
+    return arrayOf(std::move(rows), 2);
   });
 }
 

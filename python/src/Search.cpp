@@ -49,8 +49,7 @@ std::unique_ptr<PairArray> findPairsBetween(const Boxes& first, const Boxes& sec
 }
 
 py::tuple toTuple(Neighbors found) {
-  return py::make_tuple(std::make_unique<NumberArray<std::uint64_t>>(std::move(found.offsets)),
-                        std::make_unique<NumberArray<std::uint32_t>>(std::move(found.indices)));
+  return py::make_tuple(arrayOf(std::move(found.offsets)), arrayOf(std::move(found.indices)));
 }
 
 py::tuple findNeighbors(const Boxes& boxes, NeighborRows rows, Options& options) {

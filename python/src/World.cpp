@@ -9,11 +9,6 @@ namespace allpairs::python {
 namespace py = pybind11;
 namespace {
 
-template <class T>
-void bindNumbers(py::module_& module, const char* name) {
-  py::class_<NumberArray<T>>(module, name, tableProtocol<NumberArray<T>>());
-}
-
 template <std::uint32_t BoxProperties::*Field>
 void setField(Properties& properties, const py::buffer& values) {
   properties.setField(Field, values);
@@ -40,8 +35,8 @@ void bindProperties(py::module_& module) {
 }  // namespace
 
 void bindWorld(py::module_& module) {
-  bindNumbers<std::uint32_t>(module, "IdArray");
-  bindNumbers<double>(module, "RealArray");
+  const py::class_<IdArray> ids(module, "IdArray", tableProtocol<IdArray>());
+  const py::class_<RealArray> reals(module, "RealArray", tableProtocol<RealArray>());
   bindProperties(module);
   module.attr("NO_BOX") = kNoBox;
   module.attr("EVERY_WORLD") = kEveryWorld;

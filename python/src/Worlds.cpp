@@ -43,7 +43,7 @@ class Division {
 };
 
 py::tuple toTuple(WorldPairs found) {
-  return py::make_tuple(toPython(std::move(found.pairs)), std::make_unique<OffsetArray>(std::move(found.begin)));
+  return py::make_tuple(toPython(std::move(found.pairs)), arrayOf(std::move(found.begin)));
 }
 
 py::tuple findInWorlds(const Division& division, const Boxes* shared, Options& options) {
