@@ -74,6 +74,15 @@ std::vector<std::array<double, 3>> pointsOf(std::span<const double> rows) {
   return points;
 }
 
+/// Sets a property of each box from a contiguous buffer with a number for each.
+template <class T, class Set>
+void setEach(std::vector<BoxProperties>& boxes, const py::buffer& values, const Set& set) {
+  const py::buffer_info info = requestBuffer(values, {py::format_descriptor<T>::format(), 0});
+  const std::span<const T> numbers = valuesOf<T>(info);
+  if (numbers.size() != boxes.size()) throw InvalidArgument("properties of another length");
+  for (std::size_t i = 0; i < numbers.size(); ++i) set(boxes[i], numbers[i]);
+}
+
 /// Ids and a number for each, as two arrays.
 struct Found {
   std::vector<std::uint32_t> ids;
@@ -87,26 +96,17 @@ struct Found {
 }  // namespace
 
 void Properties::setField(std::uint32_t BoxProperties::*field, const py::buffer& values) {
-  const py::buffer_info info = requestBuffer(values, {"I", 0});
-  const auto numbers = valuesOf<std::uint32_t>(info);
-  if (numbers.size() != m_values.size()) throw InvalidArgument("properties of another length");
-  for (std::size_t i = 0; i < numbers.size(); ++i) m_values[i].*field = numbers[i];
+  setEach<std::uint32_t>(m_values, values, [field](BoxProperties& box, std::uint32_t value) { box.*field = value; });
   m_fields.push_back(field);
 }
 
 void Properties::setMargins(const py::buffer& values) {
-  const py::buffer_info info = requestBuffer(values, {"d", 0});
-  const auto numbers = valuesOf<double>(info);
-  if (numbers.size() != m_values.size()) throw InvalidArgument("margins of another length");
-  for (std::size_t i = 0; i < numbers.size(); ++i) m_values[i].margin = numbers[i];
+  setEach<double>(m_values, values, [](BoxProperties& box, double margin) { box.margin = margin; });
   m_hasMargins = true;
 }
 
 void Properties::setStatic(const py::buffer& values) {
-  const py::buffer_info info = requestBuffer(values, {"I", 0});
-  const auto numbers = valuesOf<std::uint32_t>(info);
-  if (numbers.size() != m_values.size()) throw InvalidArgument("flags of another length");
-  for (std::size_t i = 0; i < numbers.size(); ++i) m_values[i].isStatic = numbers[i] != 0;
+  setEach<std::uint32_t>(m_values, values, [](BoxProperties& box, std::uint32_t flag) { box.isStatic = flag != 0; });
   m_hasStatic = true;
 }
 
