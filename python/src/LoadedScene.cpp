@@ -19,7 +19,6 @@ namespace py = pybind11;
 namespace {
 
 using collision::CollisionModel;
-using Content = std::variant<scene::Scene, scene::BoxArray>;
 
 scene::Scene withRootBoxes(scene::Scene scene) {
   for (const scene::SceneSearch& search : scene::searchesOf(scene)) {
@@ -30,14 +29,6 @@ scene::Scene withRootBoxes(scene::Scene scene) {
     pipeline.computeBoundingTrees(search.models, scene.timeStep);
   }
   return scene;
-}
-
-Content read(const std::filesystem::path& path, const scene::ReadOptions& options) {
-  std::error_code ignored;
-  if (scene::isBoxArrayFile(path) && !std::filesystem::is_directory(path, ignored)) {
-    return scene::readBoxArray(path, options);
-  }
-  return withRootBoxes(scene::readInput(path, options));
 }
 
 /// The six columns of a file's boxes as they lie in memory: the max corners are behind the min corners in each.
@@ -118,57 +109,31 @@ std::vector<Pair> pairsOf(const scene::SceneSearch& search, double timeStep, con
 
 }  // namespace
 
-LoadedScene::LoadedScene(const std::filesystem::path& path, const scene::ReadOptions& options)
-    : m_content(read(path, options)) {
-  if (const auto* scene = std::get_if<scene::Scene>(&m_content)) {
-    for (const auto& model : scene->models) append(m_rootBoxes, scene::modelRecord(*model).box);
+LoadedScene::LoadedScene(const std::filesystem::path& path, const scene::ReadOptions& options) {
+  std::error_code ignored;
+  if (scene::isBoxArrayFile(path) && !std::filesystem::is_directory(path, ignored)) {
+    m_boxArray.emplace(scene::readBoxArray(path, options));
+  } else {
+    m_scene = withRootBoxes(scene::readInput(path, options));
+    for (const auto& model : m_scene.models) append(m_rootBoxes, scene::modelRecord(*model).box);
   }
   m_boxes = boxes();
   m_boxes.isReadOnly = true;
 }
 
-std::size_t LoadedScene::size() const {
-  const auto* boxes = std::get_if<scene::BoxArray>(&m_content);
-  return boxes != nullptr ? boxes->size() : std::get<scene::Scene>(m_content).models.size();
-}
+std::size_t LoadedScene::size() const { return m_boxArray ? m_boxArray->size() : m_scene.models.size(); }
 
 scene::ModelRecord LoadedScene::model(std::size_t index) const {
   if (index >= size()) throw py::index_error();
-  if (const auto* boxes = std::get_if<scene::BoxArray>(&m_content)) {
-    return {.name = boxes->name(index), .type = "BoxModel", .elements = 1, .box = boxes->boxes()[index]};
+  if (m_boxArray) {
+    return {.name = m_boxArray->name(index), .type = "BoxModel", .elements = 1, .box = m_boxArray->boxes()[index]};
   }
-  return scene::modelRecord(*std::get<scene::Scene>(m_content).models[index]);
-}
-
-std::span<const scene::Remark> LoadedScene::remarks() const {
-  const auto* scene = std::get_if<scene::Scene>(&m_content);
-  return scene != nullptr ? std::span<const scene::Remark>(scene->remarks) : std::span<const scene::Remark>();
-}
-
-std::span<const scene::Remark> LoadedScene::warnings() const {
-  const auto* scene = std::get_if<scene::Scene>(&m_content);
-  return scene != nullptr ? std::span<const scene::Remark>(scene->warnings) : std::span<const scene::Remark>();
-}
-
-std::string LoadedScene::method() const {
-  const auto* scene = std::get_if<scene::Scene>(&m_content);
-  return scene != nullptr ? std::string(scene->intersection->typeName()) : "DiscreteIntersection";
-}
-
-double LoadedScene::alarmDistance() const {
-  const auto* scene = std::get_if<scene::Scene>(&m_content);
-  return scene != nullptr ? scene->intersection->getAlarmDistance() : 0.0;
-}
-
-std::optional<Box> LoadedScene::region() const {
-  const auto* scene = std::get_if<scene::Scene>(&m_content);
-  return scene != nullptr ? scene->region : std::nullopt;
+  return scene::modelRecord(*m_scene.models[index]);
 }
 
 Table LoadedScene::boxes() {
-  const auto* boxes = std::get_if<scene::BoxArray>(&m_content);
-  if (boxes == nullptr) return tableOf(m_rootBoxes.data(), m_rootBoxes.size(), 6);
-  const BoxView& set = boxes->boxes();
+  if (!m_boxArray) return tableOf(m_rootBoxes.data(), m_rootBoxes.size(), 6);
+  const BoxView& set = m_boxArray->boxes();
   return set.isFloat64() ? columnsOf(set.float64(), set.size()) : columnsOf(set.float32(), set.size());
 }
 
@@ -176,11 +141,10 @@ std::vector<Pair> LoadedScene::detect(const DetectionOptions& options, Stopper& 
   const std::lock_guard lock(m_mutex);
   const Stopper::Hold hold(stopper, m_stop);
   const StopFlag& stop = m_stop.flag();
-  if (const auto* boxes = std::get_if<scene::BoxArray>(&m_content)) return detectBoxes(boxes->boxes(), options, stop);
-  const auto& scene = std::get<scene::Scene>(m_content);
+  if (m_boxArray) return detectBoxes(m_boxArray->boxes(), options, stop);
   std::vector<Pair> pairs;
-  for (const scene::SceneSearch& search : scene::searchesOf(scene)) {
-    const std::vector<Pair> more = pairsOf(search, scene.timeStep, options, stop);
+  for (const scene::SceneSearch& search : scene::searchesOf(m_scene)) {
+    const std::vector<Pair> more = pairsOf(search, m_scene.timeStep, options, stop);
     pairs.insert(pairs.end(), more.begin(), more.end());
   }
   return pairs;

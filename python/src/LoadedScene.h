@@ -6,7 +6,7 @@
 #include <mutex>
 #include <optional>
 #include <span>
-#include <variant>
+#include <string_view>
 #include <vector>
 
 #include "BufferProtocol.h"
@@ -37,13 +37,13 @@ class LoadedScene {
 
   [[nodiscard]] std::size_t size() const;
   [[nodiscard]] scene::ModelRecord model(std::size_t index) const;
-  [[nodiscard]] std::span<const scene::Remark> remarks() const;
-  [[nodiscard]] std::span<const scene::Remark> warnings() const;
+  [[nodiscard]] std::span<const scene::Remark> remarks() const { return m_scene.remarks; }
+  [[nodiscard]] std::span<const scene::Remark> warnings() const { return m_scene.warnings; }
 
-  /// Where the scene names them: how its models are tested, how far apart they may be, and where.
-  [[nodiscard]] std::string method() const;
-  [[nodiscard]] double alarmDistance() const;
-  [[nodiscard]] std::optional<Box> region() const;
+  /// How models are tested, how far apart they may be, and where.
+  [[nodiscard]] std::string_view method() const { return m_scene.intersection->typeName(); }
+  [[nodiscard]] double alarmDistance() const { return m_scene.intersection->getAlarmDistance(); }
+  [[nodiscard]] std::optional<Box> region() const { return m_scene.region; }
 
   /// An array of shape (n, 6): float32 or float64 where a file of boxes has it so, which stays where it is; root boxes
   /// are float64, for as long as the scene lives.
@@ -55,7 +55,8 @@ class LoadedScene {
  private:
   [[nodiscard]] Table boxes();
 
-  std::variant<scene::Scene, scene::BoxArray> m_content;
+  scene::Scene m_scene = scene::emptyScene();   ///< Stays empty where a file has boxes.
+  std::optional<scene::BoxArray> m_boxArray{};  ///< Of a file of boxes.
   std::vector<double> m_rootBoxes;
   Table m_boxes;
   std::mutex m_mutex;
