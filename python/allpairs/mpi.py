@@ -68,20 +68,15 @@ def _on_all_ranks(comm: MPI.Comm, make: Callable[[], _Made]) -> _Made:
     return made
 
 
-def _search_of(comm: MPI.Comm, options: _core.Options) -> _mpi.DistributedSearch:
+def _prepared(
+    make: Callable[[dict[str, Any]], tuple[Any, ...]], values: dict[str, Any]
+) -> tuple[_mpi.DistributedSearch, list[_core.Boxes]]:
+    """A search on the ranks, and the sets that it is for: one or two, as make() makes them of a function's arguments."""
+    comm = values["comm"]
+    *sets, options = _on_all_ranks(comm, lambda: make({**_FIXED, **values}))
     if MPI.Get_library_version().strip("\0 \n") != _mpi.mpi_version().strip():
         raise InvalidArgument("mpi4py and allpairs were built for different MPIs")
-    return _mpi.DistributedSearch(comm.py2f(), options)
-
-
-def _one(comm: MPI.Comm, values: dict[str, Any]) -> tuple[_mpi.DistributedSearch, _core.Boxes, None]:
-    boxes, options = _on_all_ranks(comm, lambda: _search._one({**_FIXED, **values}))
-    return _search_of(comm, options), boxes, None
-
-
-def _two(comm: MPI.Comm, values: dict[str, Any]) -> tuple[_mpi.DistributedSearch, _core.Boxes, _core.Boxes]:
-    first, second, options = _on_all_ranks(comm, lambda: _search._two({**_FIXED, **values}))
-    return _search_of(comm, options), first, second
+    return _mpi.DistributedSearch(comm.py2f(), options), sets
 
 
 def overlaps(
@@ -124,9 +119,8 @@ def overlaps(
     >>> allpairs.mpi.overlaps(MPI.COMM_SELF, np.array([[0, 0, 0, 2, 2, 2], [1, 1, 1, 3, 3, 3], [9, 9, 9, 9, 9, 9]]))
     array([[0, 1]], dtype=uint64)
     """
-    values = locals()
-    search, boxes, none = _one(values.pop("comm"), values)
-    return np.asarray(search.find(boxes, none))
+    search, sets = _prepared(_search._one, locals())
+    return np.asarray(search.find(*sets))
 
 
 def count(
@@ -144,9 +138,8 @@ def count(
     max_pairs: int | None = None,
 ) -> int:
     """The number of pairs of all ranks, on each of them. Parameters as in `overlaps`."""
-    values = locals()
-    search, boxes, none = _one(values.pop("comm"), values)
-    return search.count(boxes, none)
+    search, sets = _prepared(_search._one, locals())
+    return search.count(*sets)
 
 
 def overlaps_between(
@@ -167,9 +160,8 @@ def overlaps_between(
 
     Parameters as in `allpairs.overlaps_between` and `overlaps`; both sets are numbered by themselves.
     """
-    values = locals()
-    search, a, b = _two(values.pop("comm"), values)
-    return np.asarray(search.find(a, b))
+    search, sets = _prepared(_search._two, locals())
+    return np.asarray(search.find(*sets))
 
 
 def count_between(
@@ -187,6 +179,5 @@ def count_between(
     max_pairs: int | None = None,
 ) -> int:
     """The number of pairs of two sets on all ranks, on each of them. Parameters as in `overlaps_between`."""
-    values = locals()
-    search, a, b = _two(values.pop("comm"), values)
-    return search.count(a, b)
+    search, sets = _prepared(_search._two, locals())
+    return search.count(*sets)

@@ -67,7 +67,7 @@ PYBIND11_MODULE(_mpi, module) {
   module.def("mpi_version", &allpairs::python::mpiVersion);
   py::class_<DistributedSearch>(module, "DistributedSearch")
       .def(py::init<MPI_Fint, const allpairs::python::Options&>(), py::keep_alive<1, 3>())
-      .def("find", &DistributedSearch::find)
-      .def("count", &DistributedSearch::count);
+      .def("find", &DistributedSearch::find, py::arg("first"), py::arg("second") = nullptr)
+      .def("count", &DistributedSearch::count, py::arg("first"), py::arg("second") = nullptr);
   allpairs::python::refusePickling(module);
 }
