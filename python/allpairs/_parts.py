@@ -55,6 +55,11 @@ def at(place: Place) -> Iterator[None]:
         raise
 
 
+def _begins_of(sizes: Sequence[int]) -> list[int]:
+    """The number of the first box of each part, and that of all boxes."""
+    return [0, *np.cumsum(sizes).tolist()]
+
+
 class BoxParts(NamedTuple):
     """A set of boxes as parts that tasks read."""
 
@@ -67,7 +72,7 @@ class BoxParts(NamedTuple):
     @property
     def begins(self) -> list[int]:
         """The number of the first box of each part, and that of all boxes."""
-        return [0, *np.cumsum(self.sizes).tolist()]
+        return _begins_of(self.sizes)
 
 
 #: One thread at a time reads the head of a file: NumPy parses it with `ast`, which raises SystemError now and then in threads
@@ -244,21 +249,17 @@ def _of_each_set(name: str, value: Any, sets: int) -> list[Any]:
     return list(_arguments.both(name, [value] if isinstance(value, str) else value))
 
 
-def box_parts(boxes: Sequence[Any], values: Values) -> list[BoxParts]:
+def box_parts(values: Values) -> list[BoxParts]:
     """One set, or two: what `boxes` and `second` are, with margins and labels of each."""
-    given = boxes[:1] if boxes[1] is None else boxes
-    own = {name: _of_each_set(name, values[name], len(given)) for name in _arguments.OF_EACH_BOX}
-    called = ["all"] if len(given) == 1 else ["the first set", "the second set"]
-    prefixes = [""] if len(given) == 1 else ["first set: ", "second set: "]
+    names = {"boxes": "all"} if values["second"] is None else {"boxes": "the first set", "second": "the second set"}
+    prefixes = ("",) if len(names) == 1 else ("first set: ", "second set: ")
+    own = {name: _of_each_set(name, values[name], len(names)) for name in _arguments.OF_EACH_BOX}
     sets = []
-    for i, (argument, each) in enumerate(zip(("boxes", "second"), given)):
-        parts, sizes, files = _boxes_of(argument, each)
-        plain = BoxParts(parts, sizes, [], [Place(file, is_file=True) for file in files])
-        if not files:
-            plain = plain._replace(places=[Place(called[i], begin) for begin in plain.begins[:-1]])
-        columns = {
-            name: _of_each_part(name, pair[i], plain.begins, prefixes[i]) for name, pair in own.items() if pair[i] is not None
-        }
-        rows = [{name: column[number] for name, column in columns.items()} for number in range(len(plain.parts))]
-        sets.append(plain._replace(values=rows))
+    for i, (argument, called) in enumerate(names.items()):
+        parts, sizes, files = _boxes_of(argument, values[argument])
+        begins = _begins_of(sizes)
+        places = [Place(file, is_file=True) for file in files] or [Place(called, begin) for begin in begins[:-1]]
+        columns = {name: _of_each_part(name, pair[i], begins, prefixes[i]) for name, pair in own.items() if pair[i] is not None}
+        rows = [{name: column[number] for name, column in columns.items()} for number in range(len(parts))]
+        sets.append(BoxParts(parts, sizes, rows, places))
     return sets

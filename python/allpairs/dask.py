@@ -191,10 +191,6 @@ def _settings_of(values: Values) -> Values:
     return settings
 
 
-def _sets_of(values: Values) -> list[BoxParts]:
-    return box_parts([values["boxes"], values["second"]], values)
-
-
 def _cells_of(sets: list[BoxParts], distance: float, cells: Optional[int]) -> list[_Cell]:
     """Cuts space by a sample, which is computed now, and divides the boxes, which waits."""
     parts = sum(len(each.parts) for each in sets)
@@ -224,6 +220,13 @@ def _cells_of(sets: list[BoxParts], distance: float, cells: Optional[int]) -> li
         _Cell(bounds, [[pick(part, number) for part in parts] for parts in divided])
         for number, bounds in enumerate(partition.cells)
     ]
+
+
+def _planned(values: Values) -> tuple[Values, list[BoxParts], list[_Cell]]:
+    """The settings, the sets of boxes and the cells of a search, from the arguments of a function."""
+    settings = _settings_of(values)
+    sets = box_parts(values)
+    return settings, sets, _cells_of(sets, settings["distance"], values["cells"])
 
 
 def overlaps(
@@ -278,11 +281,9 @@ def overlaps(
     array([[0, 1],
            [1, 2]], dtype=uint32)
     """
-    values = locals()
-    settings, sets = _settings_of(values), _sets_of(values)
+    settings, sets, divided = _planned(locals())
     dtype = "uint32" if max(sum(each.sizes) for each in sets) <= 2**32 else "uint64"
     ranges = (sets[0].begins, dtype)
-    divided = _cells_of(sets, settings["distance"], cells)
     found = [delayed(_search)(cell.sets, cell.bounds, settings, ranges) for cell in divided]
     pick = delayed(_picked)
     merged = [delayed(_merge)([pick(pairs, number) for pairs in found]) for number in range(len(sets[0].parts))]
@@ -317,8 +318,6 @@ def count(
     >>> allpairs.dask.count(dask.array.zeros((1000, 6), chunks=(300, 6)))  # all in one place
     499500
     """
-    values = locals()
-    settings, sets = _settings_of(values), _sets_of(values)
-    divided = _cells_of(sets, settings["distance"], cells)
+    settings, _, divided = _planned(locals())
     counts: Iterable[int] = compute(*[delayed(_count)(cell.sets, cell.bounds, settings) for cell in divided])
     return sum(counts)
