@@ -39,13 +39,8 @@ struct BruteForceBroadPhase::State {
   /// Gives the pairs of all rows that were added and not looked at yet.
   void complete();
 
-  void addPairs();
-  void completeExhaustively();
-
   std::optional<Box> box;
   std::unique_ptr<BoxModel> region;
-  Strategy strategy = Strategy::Automatic;
-  const StopFlag* stop = nullptr;
   ModelTable models;
   PairRules rules{models};
   PairSearch search{models, rules};
@@ -75,7 +70,7 @@ void BruteForceBroadPhase::State::complete() {
     const std::size_t pairsBefore = pairs.size();
     const BroadPhaseStatistics statisticsBefore = statistics;
     try {
-      addPairs();
+      search.addPairs(rowsDone, pairs, statistics);
     } catch (...) {
       // What a rule threw on leaves the list as it was, so that the next attempt reports no pair twice.
       pairs.resize(pairsBefore);
@@ -87,27 +82,6 @@ void BruteForceBroadPhase::State::complete() {
   statistics.models = n;
   statistics.pairs = pairs.size();
   statistics.testsOfAllPairs = n == 0 ? 0 : std::uint64_t{n} * (n - 1) / 2;
-}
-
-void BruteForceBroadPhase::State::addPairs() {
-  if (strategy == Strategy::Exhaustive) {
-    completeExhaustively();
-  } else {
-    search.addPairs(rowsDone, pairs, statistics);
-  }
-}
-
-void BruteForceBroadPhase::State::completeExhaustively() {
-  for (std::size_t newer = rowsDone; newer < models.size(); ++newer) {
-    checkStop(stop);
-    const ModelRow& row = models.row(newer);
-    if (row.has(ModelRow::kSelfPair)) pairs.emplace_back(row.model, row.model);
-    for (std::size_t older = 0; older < newer; ++older) {
-      if (const auto pair = rules.askModels(newer, older)) pairs.push_back(*pair);
-    }
-    statistics.testsMade += newer;
-    statistics.candidates += newer;
-  }
 }
 
 BruteForceBroadPhase::BruteForceBroadPhase() : m_state(std::make_unique<State>()) {}
@@ -148,7 +122,7 @@ void BruteForceBroadPhase::addCollisionModel(core::CollisionModel* cm) {
   if (state.region && !intersectWithBoxModel(cm)) return;
   const bool mayHaveSelfPair = !ours || last.getSelfCollision();
   state.models.add(cm, ours, mayHaveSelfPair && doesSelfCollide(cm));
-  if (state.strategy == Strategy::Exhaustive) state.complete();
+  if (state.search.strategy() == Strategy::Exhaustive) state.complete();
 }
 
 void BruteForceBroadPhase::addCollisionModels(Span<core::CollisionModel* const> models) {
@@ -185,21 +159,12 @@ void BruteForceBroadPhase::setBox(const Box& box) { m_state->box = box; }
 void BruteForceBroadPhase::clearBox() { m_state->box.reset(); }
 const std::optional<Box>& BruteForceBroadPhase::getBox() const { return m_state->box; }
 
-void BruteForceBroadPhase::setStrategy(Strategy strategy) {
-  m_state->strategy = strategy;
-  m_state->search.setStrategy(strategy);
-}
-
-Strategy BruteForceBroadPhase::getStrategy() const { return m_state->strategy; }
+void BruteForceBroadPhase::setStrategy(Strategy strategy) { m_state->search.setStrategy(strategy); }
+Strategy BruteForceBroadPhase::getStrategy() const { return m_state->search.strategy(); }
 void BruteForceBroadPhase::setKeepsSearch(bool keeps) { m_state->search.setKept(keeps); }
 bool BruteForceBroadPhase::getKeepsSearch() const { return m_state->search.isKept(); }
 void BruteForceBroadPhase::setExecutor(Executor* executor) { m_state->search.setExecutor(executor); }
-
-void BruteForceBroadPhase::setStop(const StopFlag* stop) {
-  m_state->stop = stop;
-  m_state->search.setStop(stop);
-}
-
+void BruteForceBroadPhase::setStop(const StopFlag* stop) { m_state->search.setStop(stop); }
 const BroadPhaseStatistics& BruteForceBroadPhase::statistics() const { return m_state->statistics; }
 
 void BruteForceBroadPhase::verify() {
@@ -207,7 +172,7 @@ void BruteForceBroadPhase::verify() {
   m_state->checkMethod(getIntersectionMethod());
   std::vector<CollisionModelPair> expected;
   for (std::size_t newer = 0; newer < m_state->models.size(); ++newer) {
-    checkStop(m_state->stop);
+    checkStop(m_state->search.stop());
     CollisionModel* model = m_state->models.row(newer).model;
     if (doesSelfCollide(model)) expected.emplace_back(model, model);
     for (std::size_t older = 0; older < newer; ++older) {

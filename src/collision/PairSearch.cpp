@@ -22,9 +22,29 @@ void addTests(const OverlapStatistics& search, BroadPhaseStatistics& statistics)
 
 }  // namespace
 
+/// Whichever boxes are near: ask(newer, older) gives the pair of two rows, if there is one.
+template <class Ask>
+void PairSearch::askAll(std::size_t begin, std::vector<CollisionModelPair>& pairs, BroadPhaseStatistics& statistics,
+                        const Ask& ask) const {
+  for (std::size_t newer = begin; newer < m_models.size(); ++newer) {
+    checkStop(m_stop);
+    const ModelRow& row = m_models.row(newer);
+    if (row.has(ModelRow::kSelfPair)) pairs.emplace_back(row.model, row.model);
+    for (std::size_t older = 0; older < newer; ++older) {
+      if (const auto pair = ask(newer, older)) pairs.push_back(*pair);
+    }
+    statistics.testsMade += newer;
+    statistics.candidates += newer;
+  }
+}
+
 void PairSearch::addPairs(std::size_t begin, std::vector<CollisionModelPair>& pairs, BroadPhaseStatistics& statistics) {
-  if (m_rules.maximumDistance() == std::numeric_limits<double>::infinity()) {
-    askAll(begin, pairs, statistics);
+  if (m_strategy == Strategy::Exhaustive) {
+    askAll(begin, pairs, statistics,
+           [this](std::size_t newer, std::size_t older) { return m_rules.askModels(newer, older); });
+  } else if (m_rules.maximumDistance() == std::numeric_limits<double>::infinity()) {
+    askAll(begin, pairs, statistics,
+           [this](std::size_t newer, std::size_t older) { return m_rules.ask(newer, older, false); });
   } else {
     askFound(begin, pairs, statistics);
   }
@@ -34,19 +54,6 @@ void PairSearch::setKept(bool kept) {
   if (kept == isKept()) return;
   m_kept.reset();
   if (kept) m_kept.emplace();
-}
-
-void PairSearch::askAll(std::size_t begin, std::vector<CollisionModelPair>& pairs, BroadPhaseStatistics& statistics) {
-  for (std::size_t newer = begin; newer < m_models.size(); ++newer) {
-    checkStop(m_stop);
-    const ModelRow& row = m_models.row(newer);
-    if (row.has(ModelRow::kSelfPair)) pairs.emplace_back(row.model, row.model);
-    for (std::size_t older = 0; older < newer; ++older) {
-      if (const auto pair = m_rules.ask(newer, older, false)) pairs.push_back(*pair);
-    }
-    statistics.testsMade += newer;
-    statistics.candidates += newer;
-  }
 }
 
 void PairSearch::askFound(std::size_t begin, std::vector<CollisionModelPair>& pairs, BroadPhaseStatistics& statistics) {

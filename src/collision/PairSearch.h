@@ -21,9 +21,13 @@ class PairSearch {
  public:
   PairSearch(const ModelTable& models, PairRules& rules) : m_models(models), m_rules(rules) {}
 
+  /// Strategy::Exhaustive asks the models about all pairs: the plain double loop.
   void setStrategy(Strategy strategy) { m_strategy = strategy; }
+  [[nodiscard]] Strategy strategy() const { return m_strategy; }
+
   void setExecutor(Executor* executor) { m_executor = executor; }
   void setStop(const StopFlag* stop) { m_stop = stop; }
+  [[nodiscard]] const StopFlag* stop() const { return m_stop; }
 
   /// Whether a search may be kept from step to step; if not, its memory is given back.
   void setKept(bool kept);
@@ -41,7 +45,9 @@ class PairSearch {
     std::size_t secondOffset = 0;  // added to the newer's index
   };
 
-  void askAll(std::size_t begin, std::vector<CollisionModelPair>& pairs, BroadPhaseStatistics& statistics);
+  template <class Ask>
+  void askAll(std::size_t begin, std::vector<CollisionModelPair>& pairs, BroadPhaseStatistics& statistics,
+              const Ask& ask) const;
   void askFound(std::size_t begin, std::vector<CollisionModelPair>& pairs, BroadPhaseStatistics& statistics);
   void askAllOf(std::span<const Pair> found, const Candidates& offsets, std::vector<CollisionModelPair>& pairs);
   void askPlain(std::span<const Pair> found, const Candidates& offsets, std::vector<CollisionModelPair>& pairs) const;
