@@ -12,8 +12,8 @@
 namespace allpairs::join {
 namespace {
 
-constexpr std::size_t kBlock = std::size_t{1} << 14;  // boxes that are read at once: they stay in the cache
-constexpr std::size_t kNeighbors = 4;                 // boxes of a sample that are read at one place
+constexpr std::uint64_t kBlock = std::uint64_t{1} << 14;  // boxes that are read at once: they stay in the cache
+constexpr std::uint64_t kNeighbors = 4;                   // boxes of a sample that are read at one place
 
 template <class Number>
 BoxView viewOf(const scene::BoxRows& file, std::uint64_t begin, std::span<const Number> rows) {
@@ -89,13 +89,22 @@ scene::BoxRows BoxInput::open(std::size_t file) const {
   return rows;
 }
 
-void BoxInput::forEachBlock(Visitor visit) {
-  std::vector<float> float32;
-  std::vector<double> float64;
+void BoxInput::forEachBlock(Visitor visit) { readEach(kBlock, kBlock, visit); }
+
+BoxSample BoxInput::sample(std::size_t count) {
+  BoxSample sample{.type = {.hasMargins = m_type.hasMargins}};
+  const std::uint64_t step = size() <= count ? kNeighbors : size() / std::max<std::uint64_t>(count / kNeighbors, 1);
+  readEach(step, kNeighbors, [&sample](const BoxBlock& block) {
+    for (std::size_t i = 0; i < block.boxes.size(); ++i) sample.add(block, i);
+  });
+  return sample;
+}
+
+void BoxInput::readEach(std::uint64_t step, std::uint64_t most, Visitor visit) {
   if (m_type.isFloat64) {
-    readBlocks(float64, visit);
+    readEachAs<double>(step, most, visit);
   } else {
-    readBlocks(float32, visit);
+    readEachAs<float>(step, most, visit);
   }
 }
 
@@ -114,44 +123,22 @@ BoxBlock BoxInput::readBlock(scene::BoxRows& file, const Place& place, std::vect
 }
 
 template <class Number>
-void BoxInput::readBlocks(std::vector<Number>& rows, Visitor visit) {
+void BoxInput::readEachAs(std::uint64_t step, std::uint64_t most, Visitor visit) {
+  std::vector<Number> rows;
   std::array<std::uint64_t, 2> read{};  // boxes of each set in the files before
   for (std::size_t k = 0; k < m_paths.size(); ++k) {
     scene::BoxRows file = open(k);
     const std::size_t set = setOf(k);
-    for (std::uint64_t begin = 0; begin < file.size(); begin += kBlock) {
-      rows.resize(6 * static_cast<std::size_t>(std::min<std::uint64_t>(kBlock, file.size() - begin)));
+    for (std::uint64_t begin = 0; begin < file.size(); begin += step) {
+      rows.resize(6 * static_cast<std::size_t>(std::min(most, file.size() - begin)));
       visit(readBlock(file, {set, read[set], begin}, rows));
     }
     read[set] += file.size();
   }
 }
 
-BoxSample BoxInput::sample(std::size_t count) {
-  return m_type.isFloat64 ? sampleAs<double>(count) : sampleAs<float>(count);
-}
-
-template <class Number>
-BoxSample BoxInput::sampleAs(std::size_t count) {
-  BoxSample sample{.type = {.hasMargins = m_type.hasMargins}};
-  std::vector<Number> rows;
-  std::array<std::uint64_t, 2> read{};
-  const std::uint64_t step = size() <= count ? kNeighbors : size() / std::max<std::size_t>(count / kNeighbors, 1);
-  for (std::size_t k = 0; k < m_paths.size(); ++k) {
-    scene::BoxRows file = open(k);
-    const std::size_t set = setOf(k);
-    for (std::uint64_t begin = 0; begin < file.size(); begin += step) {
-      rows.resize(6 * static_cast<std::size_t>(std::min<std::uint64_t>(kNeighbors, file.size() - begin)));
-      const BoxBlock block = readBlock(file, {set, read[set], begin}, rows);
-      for (std::size_t i = 0; i < block.boxes.size(); ++i) sample.add(block, i);
-    }
-    read[set] += file.size();
-  }
-  return sample;
-}
-
 std::span<const double> BoxInput::margins(std::size_t set, std::uint64_t begin) {
-  const std::uint64_t count = std::min<std::uint64_t>(kBlock, m_setSizes[set] - begin);
+  const std::uint64_t count = std::min(kBlock, m_setSizes[set] - begin);
   m_values[set].readMargins(begin, static_cast<std::size_t>(count));
   return m_values[set].margins();
 }

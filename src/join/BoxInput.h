@@ -101,10 +101,10 @@ class BoxInput {
   [[nodiscard]] std::span<const double> margins(std::size_t set, std::uint64_t begin);
 
  private:
+  /// Reads up to `most` boxes from each place in a file that is a multiple of `step`.
+  void readEach(std::uint64_t step, std::uint64_t most, Visitor visit);
   template <class Number>
-  void readBlocks(std::vector<Number>& rows, Visitor visit);
-  template <class Number>
-  BoxSample sampleAs(std::size_t count);
+  void readEachAs(std::uint64_t step, std::uint64_t most, Visitor visit);
 
   /// Where boxes lie: from box `begin` of a file on, before which there are `before` boxes of its set.
   struct Place {

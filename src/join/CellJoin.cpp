@@ -44,14 +44,14 @@ void CellJoin::search(std::size_t task, Receiver receive) {
   const partition::Cell cell = isWide ? partition::Cell() : m_cells.cell(task);
   if (m_sets == 1) {
     searchWithin(task, cell, receive);
-    if (!isWide) searchBetween({task, wide(0)}, cell, receive);
+    if (!isWide) searchBetween(task, wide(0), cell, receive);
     return;
   }
   const std::size_t second = partOf(m_cells, 1, task);
-  searchBetween({task, second}, cell, receive);
+  searchBetween(task, second, cell, receive);
   if (isWide) return;
-  searchBetween({task, wide(1)}, cell, receive);
-  searchBetween({wide(0), second}, cell, receive);
+  searchBetween(task, wide(1), cell, receive);
+  searchBetween(wide(0), second, cell, receive);
 }
 
 void CellJoin::searchWithin(std::size_t part, const partition::Cell& cell, Receiver receive) {
@@ -71,15 +71,15 @@ void CellJoin::searchWithin(std::size_t part, const partition::Cell& cell, Recei
 }
 
 /// Boxes of the first part take half of the room, or what the second leaves where that is more.
-void CellJoin::searchBetween(Parts parts, const partition::Cell& cell, Receiver receive) {
-  const std::uint64_t count = countOf(parts.first);
-  const std::uint64_t others = countOf(parts.second);
+void CellJoin::searchBetween(std::size_t first, std::size_t second, const partition::Cell& cell, Receiver receive) {
+  const std::uint64_t count = countOf(first);
+  const std::uint64_t others = countOf(second);
   if (others == 0) return;
   const std::uint64_t step = std::max<std::uint64_t>(m_most / 2, others < m_most ? m_most - others : 0);
   for (std::uint64_t begin = 0; begin < count; begin += step) {
     const Records own = room(0, std::min(step, count - begin));
-    m_spill.read(parts.first, begin, own);
-    searchWithPart(own, parts.second, cell, receive);
+    m_spill.read(first, begin, own);
+    searchWithPart(own, second, cell, receive);
   }
 }
 

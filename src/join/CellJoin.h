@@ -32,14 +32,9 @@ class CellJoin {
   void search(std::size_t task, Receiver receive);
 
  private:
-  /// Two parts of the spill; see partOf().
-  struct Parts {
-    std::size_t first = 0;
-    std::size_t second = 0;
-  };
-
+  // A part is one of the spill; see partOf().
   void searchWithin(std::size_t part, const partition::Cell& cell, Receiver receive);
-  void searchBetween(Parts parts, const partition::Cell& cell, Receiver receive);
+  void searchBetween(std::size_t first, std::size_t second, const partition::Cell& cell, Receiver receive);
   void searchWithPart(const Records& own, std::size_t part, const partition::Cell& cell, Receiver receive);
   [[nodiscard]] std::uint64_t countOf(std::size_t part) const { return m_spill.extents()[part].count; }
   [[nodiscard]] std::size_t wide(std::size_t set) const { return partOf(m_cells, set, m_cells.size()); }

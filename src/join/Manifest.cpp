@@ -35,7 +35,7 @@ std::uint64_t bitsOf(double value) { return std::bit_cast<std::uint64_t>(value);
 std::string textOf(const Manifest& manifest) {
   std::string text(kFirstLine);
   for (const InputState& input : manifest.inputs) addLine(text, "input", input.path, input.bytes, input.changed);
-  addLine(text, "options", std::bit_cast<std::uint64_t>(manifest.distance), manifest.isCount);
+  addLine(text, "options", bitsOf(manifest.distance), manifest.isCount);
   if (manifest.secondFiles != 0) addLine(text, "second", manifest.secondFiles);
   for (const auto& [kind, file] : manifest.values) addLine(text, "value", kind, file.path, file.bytes, file.changed);
   if (manifest.region) {
@@ -48,7 +48,7 @@ std::string textOf(const Manifest& manifest) {
     if (count != 0) addLine(text, "empty", set, count, first, axis);
   }
   for (const partition::Cut& cut : manifest.cuts) {
-    addLine(text, "cut", std::bit_cast<std::uint64_t>(cut.at), cut.axis, cut.low, cut.high);
+    addLine(text, "cut", bitsOf(cut.at), cut.axis, cut.low, cut.high);
   }
   for (const Extent& extent : manifest.extents) addLine(text, "boxes", extent.begin, extent.count, extent.checksum);
   for (const auto& [number, result] : manifest.cells) {
