@@ -84,6 +84,9 @@ std::optional<Division> divide(std::span<const Box> reaches, double low, std::ve
 
 std::int32_t sideOfCell(std::size_t number) { return ~static_cast<std::int32_t>(number); }
 
+/// Where a walk begins: at the first cut, or in the only cell.
+std::int32_t rootOf(std::span<const Cut> cuts) { return cuts.empty() ? sideOfCell(0) : 0; }
+
 /// Leaves one side of a cut.
 void narrow(Cell& cell, const Cut& cut, bool isLow) {
   double& bound = isLow ? cell.max[cut.axis] : cell.min[cut.axis];
@@ -195,7 +198,7 @@ std::vector<Cell> Partition::cells() const {
 }
 
 std::uint32_t Partition::cellOf(const Point& point) const noexcept {
-  std::int32_t side = m_cuts.empty() ? sideOfCell(0) : 0;
+  std::int32_t side = rootOf(m_cuts);
   while (side >= 0) {
     const Cut& cut = m_cuts[static_cast<std::size_t>(side)];
     side = point[cut.axis] < cut.at ? cut.low : cut.high;
@@ -205,7 +208,7 @@ std::uint32_t Partition::cellOf(const Point& point) const noexcept {
 
 void Partition::cellsOf(const Box& reach, std::vector<std::uint32_t>& cells) const {
   cells.clear();
-  if (!isEmpty(reach)) addCells(m_cuts.empty() ? sideOfCell(0) : 0, reach, cells);
+  if (!isEmpty(reach)) addCells(rootOf(m_cuts), reach, cells);
 }
 
 /// The cell of each reach that touches one; kNoSoleCell for one that touches more, or none. All reaches go down the
@@ -224,7 +227,7 @@ void Partition::findSoleCells(const std::vector<Box>& reaches, std::vector<std::
     numbers[count] = i;
     count += isEmpty(reaches[i]) ? 0U : 1U;
   }
-  std::vector<Part> parts{{m_cuts.empty() ? sideOfCell(0) : 0, 0, count}};
+  std::vector<Part> parts{{rootOf(m_cuts), 0, count}};
   while (!parts.empty()) {
     const Part part = parts.back();
     parts.pop_back();
