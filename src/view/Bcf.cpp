@@ -91,9 +91,8 @@ std::string extensions() {
   for (const char* status : {"Open", "In progress", "Accepted", "Closed"})  // as in web/src/notes.js
     addText(statuses, "TopicStatus", status);
   Node labels = addNode(root, "TopicLabels");
-  addText(labels, "TopicLabel", "new");
-  addText(labels, "TopicLabel", "persisting");
-  addText(labels, "TopicLabel", "resolved");
+  for (const Change change : {Change::New, Change::Persisting, Change::Resolved})
+    addText(labels, "TopicLabel", std::string(changeName(change)));
   return textOf(document);
 }
 
@@ -136,9 +135,10 @@ TopicText topicOf(const ViewScene& scene, const Clash& clash) {
 }
 
 TopicText topicOf(const EarlierClash& clash) {
-  return {
-      clash.guid, "Closed",  clash.first + " and " + clash.second, "It was in the report before, and is none any more.",
-      kClash,     "resolved"};
+  TopicText topic{clash.guid, "Closed", clash.first + " and " + clash.second,
+                  "It was in the report before, and is none any more."};
+  topic.label = changeName(Change::Resolved);
+  return topic;
 }
 
 void addHeader(Node root, const ViewScene& scene, bool isThree) {
@@ -169,21 +169,15 @@ void addViewpoint(Node parent, const char* name, const Clash& clash) {
   addText(viewpoint, "Index", "0");
 }
 
-std::string markup(const ViewScene& scene, const Clash& clash, const BcfOptions& options) {
+/// With a viewpoint of the clash that is pictured, if one is.
+std::string markup(const ViewScene& scene, const TopicText& text, const Clash* pictured, const BcfOptions& options) {
   const bool isThree = options.version == BcfVersion::V30;
   pugi::xml_document document;
   Node root = addNode(document.root(), "Markup");
   addHeader(root, scene, isThree);
-  Node topic = addTopic(root, topicOf(scene, clash), options);
-  isThree ? addViewpoint(addNode(topic, "Viewpoints"), "ViewPoint", clash) : addViewpoint(root, "Viewpoints", clash);
-  return textOf(document);
-}
-
-std::string markup(const ViewScene& scene, const EarlierClash& clash, const BcfOptions& options) {
-  pugi::xml_document document;
-  Node root = addNode(document.root(), "Markup");
-  addHeader(root, scene, options.version == BcfVersion::V30);
-  addTopic(root, topicOf(clash), options);
+  Node topic = addTopic(root, text, options);
+  if (pictured != nullptr && isThree) addViewpoint(addNode(topic, "Viewpoints"), "ViewPoint", *pictured);
+  if (pictured != nullptr && !isThree) addViewpoint(root, "Viewpoints", *pictured);
   return textOf(document);
 }
 
@@ -272,11 +266,12 @@ std::string makeBcf(const ViewScene& scene, std::span<const Clash> clashes, cons
   archive.add("bcf.version", version(options.version));
   if (options.version == BcfVersion::V30) archive.add("extensions.xml", extensions());
   for (const Clash& clash : clashes) {
-    archive.add(clash.guid + "/markup.bcf", markup(scene, clash, options));
+    archive.add(clash.guid + "/markup.bcf", markup(scene, topicOf(scene, clash), &clash, options));
     archive.add(clash.guid + "/viewpoint.bcfv", viewpoint(scene, clash, options));
     archive.add(clash.guid + "/snapshot.png", options.picture(clash));
   }
-  for (const EarlierClash& clash : options.gone) archive.add(clash.guid + "/markup.bcf", markup(scene, clash, options));
+  for (const EarlierClash& clash : options.gone)
+    archive.add(clash.guid + "/markup.bcf", markup(scene, topicOf(clash), nullptr, options));
   return archive.finish();
 }
 

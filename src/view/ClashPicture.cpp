@@ -188,7 +188,8 @@ Raster smallPictureOfAll(const ViewScene& scene, const ParallelCamera& camera) {
   Raster canvas(2 * kOverview.width, 2 * kOverview.height, kPaper);
   Drawing drawing(scene, camera, canvas);
   for (std::uint32_t model = 0; model < scene.modelCount; ++model) drawing.shape(model, kGrey);
-  Raster result = canvas.halved();
+  Raster result(kOverview.width, kOverview.height, kPaper);
+  canvas.halveInto(result);
   const auto right = static_cast<double>(kOverview.width - 1);
   const auto bottom = static_cast<double>(kOverview.height - 1);
   const std::array<RasterPoint, 5> corners{{{0, 0, -kInFront},

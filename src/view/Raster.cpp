@@ -149,12 +149,6 @@ bool Raster::isSeen(const RasterPoint& point) const {
   return point.depth <= static_cast<double>(m_depths[pixel]);
 }
 
-Raster Raster::halved() const {
-  Raster result(m_width / 2, m_height / 2, {});
-  halveInto(result);
-  return result;
-}
-
 void Raster::halveInto(Raster& result) const {
   std::vector<std::uint16_t> sums(3 * m_width);  // of two rows
   for (std::size_t y = 0; y < result.m_height; ++y) {

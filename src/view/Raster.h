@@ -52,9 +52,7 @@ class Raster {
   /// Whether nothing that was drawn is in front of a point, which is in the picture.
   [[nodiscard]] bool isSeen(const RasterPoint& point) const;
 
-  /// Half as wide and high, each pixel the mean of four.
-  [[nodiscard]] Raster halved() const;
-  /// The same, into a picture of half the width and height.
+  /// Puts it into a picture of half the width and height, each pixel the mean of four.
   void halveInto(Raster& result) const;
 
   /// As it was in the beginning.

@@ -10,7 +10,6 @@
 #include <span>
 #include <string_view>
 
-#include "Base64.h"
 #include "ClashPicture.h"
 #include "JsonText.h"
 #include "PageSize.h"
@@ -290,7 +289,7 @@ std::string scriptSafe(const std::string& json) {
 
 }  // namespace
 
-SceneData::SceneData(const ViewScene& scene) {
+SceneData dataOf(const ViewScene& scene) {
   ArrayWriter arrays;
   const std::vector<double> origin = originOf(scene);
   std::vector<double> region;
@@ -308,11 +307,9 @@ SceneData::SceneData(const ViewScene& scene) {
   addScene(scene, json);
   arrays.addListTo(json);
   json.endObject();
-  m_json = scriptSafe(json.text());
-  m_bytes = arrays.bytes();
-  checkPageSize(scene, scene.frames.size(), m_json.size() + m_bytes.size());
+  SceneData data{scriptSafe(json.text()), arrays.bytes()};
+  checkPageSize(scene, scene.frames.size(), data.json.size() + data.bytes.size());
+  return data;
 }
-
-void SceneData::writeBase64(scene::ByteSink sink) const { view::writeBase64(m_bytes, sink); }
 
 }  // namespace allpairs::view

@@ -4,24 +4,16 @@
 #include <string>
 
 #include "ViewScene.h"
-#include "allpairs/scene/WriteResult.h"
 
 namespace allpairs::view {
 
-/// Names, words and settings of a scene as JSON in which no character can end a script element; and, in the same order
-/// as its list of arrays says, the numbers as bytes.
-class SceneData {
- public:
-  explicit SceneData(const ViewScene& scene);
-
-  [[nodiscard]] const std::string& json() const { return m_json; }
-
-  /// Writes the arrays as base64.
-  void writeBase64(scene::ByteSink sink) const;
-
- private:
-  std::string m_json;
-  std::string m_bytes;
+/// What a page reads of a scene.
+struct SceneData {
+  std::string json;   ///< Names, words and settings, and a list of arrays; no character in it can end a script element.
+  std::string bytes;  ///< The numbers of the arrays, in the order of their list.
 };
+
+/// Bad input: more than a page can hold throws Error.
+[[nodiscard]] SceneData dataOf(const ViewScene& scene);
 
 }  // namespace allpairs::view

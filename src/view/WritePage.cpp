@@ -3,6 +3,7 @@
 
 #include <string_view>
 
+#include "Base64.h"
 #include "PageTemplate.h"
 #include "SceneData.h"
 #include "allpairs/Error.h"
@@ -14,12 +15,12 @@ void writePage(const ViewScene& scene, scene::ByteSink sink) {
   const std::string_view page = pageTemplate();
   const std::size_t place = page.find(kMarker);
   if (place == std::string_view::npos) throw Error("the viewer's page has no place for a scene");
-  const SceneData data(scene);
+  const SceneData data = dataOf(scene);
   sink(page.substr(0, place));
   sink("<script type=\"application/json\" id=\"allpairs-scene\">");
-  sink(data.json());
+  sink(data.json);
   sink("</script>\n<script type=\"application/octet-stream\" id=\"allpairs-arrays\">");
-  data.writeBase64(sink);
+  writeBase64(data.bytes, sink);
   sink("</script>");
   sink(page.substr(place + kMarker.size()));
 }
