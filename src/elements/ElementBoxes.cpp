@@ -69,16 +69,16 @@ bool roundBox(const Box& box, BoxF& rounded) {
 
 }  // namespace
 
-ElementBoxes::ElementBoxes(const MeshTopology& topology) : m_meshIsExact(topology.meshCount(), true) {
+ElementBoxes::ElementBoxes(const MeshTopology& topology)
+    : m_topology(topology), m_meshIsExact(topology.meshCount(), true) {
   m_rounded.boxes[indexOf(ElementKind::Vertices)].resize(topology.counts().vertices);
   m_exact.boxes[indexOf(ElementKind::Vertices)].resize(topology.counts().vertices);
 }
 
 template <class T>
-void ElementBoxes::setPositions(const MeshTopology& topology, std::size_t mesh, std::span<const T> start,
-                                std::span<const T> end) {
-  const std::size_t count = topology.vertexCount(mesh);
-  const std::size_t first = topology.before(mesh).vertices;
+void ElementBoxes::setPositions(std::size_t mesh, std::span<const T> start, std::span<const T> end) {
+  const std::size_t count = m_topology.vertexCount(mesh);
+  const std::size_t first = m_topology.before(mesh).vertices;
   checkPositions(mesh, start, count, "start");
   checkPositions(mesh, end, count, "end");
   bool exact = true;
@@ -98,39 +98,33 @@ void ElementBoxes::setPositions(const MeshTopology& topology, std::size_t mesh, 
   m_lanesAreCurrent = {};
 }
 
-template void ElementBoxes::setPositions(const MeshTopology&, std::size_t, std::span<const float>,
-                                         std::span<const float>);
-template void ElementBoxes::setPositions(const MeshTopology&, std::size_t, std::span<const double>,
-                                         std::span<const double>);
+template void ElementBoxes::setPositions(std::size_t, std::span<const float>, std::span<const float>);
+template void ElementBoxes::setPositions(std::size_t, std::span<const double>, std::span<const double>);
 
 bool ElementBoxes::roundedAreExact() const noexcept {
   return std::find(m_meshIsExact.begin(), m_meshIsExact.end(), false) == m_meshIsExact.end();
 }
 
 template <class T>
-std::span<const BasicBox<T>> ElementBoxes::current(Tables<T>& tables, ElementKind kind, const MeshTopology& topology) {
+std::span<const BasicBox<T>> ElementBoxes::current(Tables<T>& tables, ElementKind kind) const {
   // Rounding is monotone: the rounded box of an element is that of its vertices' rounded boxes.
   const std::span<const BasicBox<T>> vertices = tables.boxes[indexOf(ElementKind::Vertices)];
   std::vector<BasicBox<T>>& boxes = tables.boxes[indexOf(kind)];
   bool& isCurrent = tables.areCurrent[indexOf(kind)];
-  if (kind == ElementKind::Edges && !isCurrent) boundElements(topology.edges(), vertices, boxes);
-  if (kind == ElementKind::Faces && !isCurrent) boundElements(topology.triangles(), vertices, boxes);
+  if (kind == ElementKind::Edges && !isCurrent) boundElements(m_topology.edges(), vertices, boxes);
+  if (kind == ElementKind::Faces && !isCurrent) boundElements(m_topology.triangles(), vertices, boxes);
   isCurrent = true;
   return boxes;
 }
 
-std::span<const BoxF> ElementBoxes::rounded(ElementKind kind, const MeshTopology& topology) {
-  return current(m_rounded, kind, topology);
-}
+std::span<const BoxF> ElementBoxes::rounded(ElementKind kind) { return current(m_rounded, kind); }
 
-std::span<const Box> ElementBoxes::exact(ElementKind kind, const MeshTopology& topology) {
-  return current(m_exact, kind, topology);
-}
+std::span<const Box> ElementBoxes::exact(ElementKind kind) { return current(m_exact, kind); }
 
-std::span<const LaneBounds> ElementBoxes::lanes(ElementKind kind, const MeshTopology& topology) {
+std::span<const LaneBounds> ElementBoxes::lanes(ElementKind kind) {
   std::vector<LaneBounds>& lanes = m_lanes[indexOf(kind)];
   if (!m_lanesAreCurrent[indexOf(kind)]) {
-    const std::span<const BoxF> boxes = rounded(kind, topology);
+    const std::span<const BoxF> boxes = rounded(kind);
     lanes.clear();
     lanes.reserve(boxes.size());
     for (const BoxF& box : boxes) lanes.emplace_back(box);

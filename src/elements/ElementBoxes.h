@@ -21,20 +21,21 @@ enum class ElementKind : std::uint8_t { Vertices, Edges, Faces };
 /// order, so that boxes which overlap still do, and some that don't come to touch.
 class ElementBoxes {
  public:
+  /// The topology must outlive it.
   explicit ElementBoxes(const MeshTopology& topology);
 
   /// Takes the positions of the vertices of a mesh, rows of 3, after checking all of them.
   template <class T>
-  void setPositions(const MeshTopology& topology, std::size_t mesh, std::span<const T> start, std::span<const T> end);
+  void setPositions(std::size_t mesh, std::span<const T> start, std::span<const T> end);
 
   /// Whether the rounded boxes are the exact ones.
   [[nodiscard]] bool roundedAreExact() const noexcept;
 
-  [[nodiscard]] std::span<const BoxF> rounded(ElementKind kind, const MeshTopology& topology);
-  [[nodiscard]] std::span<const Box> exact(ElementKind kind, const MeshTopology& topology);
+  [[nodiscard]] std::span<const BoxF> rounded(ElementKind kind);
+  [[nodiscard]] std::span<const Box> exact(ElementKind kind);
 
   /// The rounded boxes in the form in which two are compared.
-  [[nodiscard]] std::span<const LaneBounds> lanes(ElementKind kind, const MeshTopology& topology);
+  [[nodiscard]] std::span<const LaneBounds> lanes(ElementKind kind);
 
  private:
   template <class T>
@@ -44,8 +45,9 @@ class ElementBoxes {
   };
 
   template <class T>
-  static std::span<const BasicBox<T>> current(Tables<T>& tables, ElementKind kind, const MeshTopology& topology);
+  std::span<const BasicBox<T>> current(Tables<T>& tables, ElementKind kind) const;
 
+  const MeshTopology& m_topology;
   Tables<float> m_rounded;
   Tables<double> m_exact;
   std::array<std::vector<LaneBounds>, 3> m_lanes;

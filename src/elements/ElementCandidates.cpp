@@ -117,9 +117,7 @@ struct ElementCandidates::State {
 
   void streamIn(Order order, CandidateKind kind, PairVisitor visitor, std::size_t batchSize = kBatch);
 
-  [[nodiscard]] BoxTables tables(ElementKind kind) {
-    return {boxes.lanes(kind, topology).data(), boxes.exact(kind, topology).data()};
-  }
+  [[nodiscard]] BoxTables tables(ElementKind kind) { return {boxes.lanes(kind).data(), boxes.exact(kind).data()}; }
 
   MeshTopology topology;
   CandidateOptions options;
@@ -140,10 +138,10 @@ void ElementCandidates::State::visitAs(Elements elements, ElementKind first, Ele
   const auto differ = [=](Pair pair) { return !elements.share(pair) & rule.allows(elements, pair); };
   const bool one = first == second;
   if (options.distance != 0.0) {  // The engine compares in double.
-    use(differ, Sets{boxes.exact(first, topology), boxes.exact(second, topology), one});
+    use(differ, Sets{boxes.exact(first), boxes.exact(second), one});
     return;
   }
-  const Sets rounded{boxes.rounded(first, topology), boxes.rounded(second, topology), one};
+  const Sets rounded{boxes.rounded(first), boxes.rounded(second), one};
   if (boxes.roundedAreExact()) {
     use(differ, rounded);
   } else {
@@ -210,13 +208,11 @@ const MeshTopology& ElementCandidates::topology() const noexcept {
 }
 
 void ElementCandidates::setPositions(std::size_t mesh, Span<const float> start, Span<const float> end) {
-  State& state = this->state();
-  state.boxes.setPositions<float>(state.topology, mesh, start, end);
+  state().boxes.setPositions<float>(mesh, start, end);
 }
 
 void ElementCandidates::setPositions(std::size_t mesh, Span<const double> start, Span<const double> end) {
-  State& state = this->state();
-  state.boxes.setPositions<double>(state.topology, mesh, start, end);
+  state().boxes.setPositions<double>(mesh, start, end);
 }
 
 Span<const Pair> ElementCandidates::find(CandidateKind kind) {
