@@ -151,8 +151,6 @@ class SearchCall {
   ~SearchCall() { m_search.isCalled.store(false, std::memory_order_release); }
   SearchCall(const SearchCall&) = delete;
   SearchCall& operator=(const SearchCall&) = delete;
-  SearchCall(SearchCall&&) = delete;
-  SearchCall& operator=(SearchCall&&) = delete;
 
   [[nodiscard]] allpairs_search& handle() const noexcept { return m_search; }
 
@@ -198,8 +196,6 @@ class CallingBack {
   ~CallingBack() { m_calls.fetch_sub(1, std::memory_order_relaxed); }
   CallingBack(const CallingBack&) = delete;
   CallingBack& operator=(const CallingBack&) = delete;
-  CallingBack(CallingBack&&) = delete;
-  CallingBack& operator=(CallingBack&&) = delete;
 
   [[nodiscard]] World& world() const noexcept { return m_world; }
 

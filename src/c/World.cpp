@@ -28,6 +28,11 @@ WorldOptions optionsOf(const allpairs_world_options& given, Executor* executor, 
   return options;
 }
 
+/// The default for an id that is not there, which setProperties() refuses.
+BoxProperties propertiesIn(const World& world, BoxId id) {
+  return world.contains(id) ? world.properties(id) : BoxProperties();
+}
+
 std::span<const BoxId> idsOf(const allpairs_ids& ids) { return requiredSpan(ids.data, ids.count, "ids.data"); }
 
 }  // namespace
@@ -104,8 +109,7 @@ allpairs_status allpairs_world_set_properties(allpairs_world* world, allpairs_id
     const std::span<const allpairs::BoxId> chosen = idsOf(ids);
     for (std::size_t i = 0; i < given.size(); ++i) {
       each.push_back(propertiesOf(given[i]));
-      // An id that is not there is refused below.
-      if (worldOf(world).contains(chosen[i])) each.back().world = worldOf(world).properties(chosen[i]).world;
+      each.back().world = propertiesIn(worldOf(world), chosen[i]).world;
     }
     worldOf(world).setProperties(chosen, each);
   });
@@ -115,11 +119,11 @@ allpairs_status allpairs_world_set_worlds(allpairs_world* world, allpairs_ids id
   return guarded([&] {
     const std::span<const std::uint32_t> numbers = requiredSpan(worlds, ids.count, "worlds");
     const std::span<const allpairs::BoxId> chosen = idsOf(ids);
-    std::vector<allpairs::BoxProperties> each(chosen.size());
-    for (std::size_t i = 0; i < each.size(); ++i) {
-      // An id that is not there is refused below.
-      if (worldOf(world).contains(chosen[i])) each[i] = worldOf(world).properties(chosen[i]);
-      each[i].world = numbers[i];
+    std::vector<allpairs::BoxProperties> each;
+    each.reserve(chosen.size());
+    for (std::size_t i = 0; i < chosen.size(); ++i) {
+      each.push_back(propertiesIn(worldOf(world), chosen[i]));
+      each.back().world = numbers[i];
     }
     worldOf(world).setProperties(chosen, each);
   });
