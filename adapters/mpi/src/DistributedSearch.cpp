@@ -46,9 +46,9 @@ void DistributedSearch::search(std::span<const LocalBoxes> given) {
     searchHere();
     return;
   }
-  const bool areAllEmpty =
+  const bool isAnyEmpty =
       std::any_of(m_sets.begin(), m_sets.end(), [](const LocalSet& set) { return set.allBoxes == 0; });
-  if (!areAllEmpty) {
+  if (!isAnyEmpty) {
     const Distribution distribution(m_ranks, m_sets, m_options, m_tuning);
     searchCells(distribution);
     for (std::size_t set = 0; set < m_sets.size(); ++set) searchWide(distribution, set);
@@ -71,7 +71,6 @@ void DistributedSearch::checkSets() const {
   const bool hasSecond =
       !m_options.second.categories.empty() || !m_options.second.masks.empty() || !m_options.second.groups.empty();
   if (m_sets.size() == 1 && hasSecond) throw InvalidArgument("the filter of a second set, and one set");
-  const BoxView none;
   for (const LocalSet& set : m_sets) {
     for (const auto values : {set.bits.categories, set.bits.masks, set.bits.groups}) {
       if (values.empty() || values.size() == set.boxes.size()) continue;
@@ -81,7 +80,7 @@ void DistributedSearch::checkSets() const {
   }
   OverlapOptions options = optionsFor({}, {});
   options.executor = nullptr;
-  (void)countOverlaps(none, none, options);  // refuses a distance or region that makes no sense
+  (void)countOverlaps(BoxView(), BoxView(), options);  // refuses a distance or region that makes no sense
 }
 
 /// Ranks that search for different things would wait for each other, or give pairs that no search has.
@@ -246,6 +245,26 @@ void DistributedSearch::searchWide(const Distribution& distribution, std::size_t
   }
 }
 
+/// Takes all pairs of two sets of boxes: a list of them, or, where that would have more than are allowed, some at a
+/// time.
+template <class Take>
+void DistributedSearch::searchBetween(OverlapOptions options, const BoxView& first, const BoxView& second,
+                                      const Take& take) const {
+  OverlapSearch search(std::move(options));
+  if (!m_isCount) {
+    std::optional<std::span<const Pair>> found;
+    try {
+      found = search.find(first, second);
+    } catch (const LimitExceeded&) {  // add() says how many of them count
+    }
+    if (found) return take(*found);
+    options = search.options();
+    options.maxPairs = OverlapOptions().maxPairs;
+    search.setOptions(std::move(options));
+  }
+  search.stream(first, second, take);
+}
+
 /// Of one set, each pair is found as (lower number, higher number), in which order its margins are added; two wide
 /// boxes are a pair on the rank of the higher one.
 void DistributedSearch::searchChunk(const BoxRecords& wide, std::size_t set, std::span<const char> isWideHere) {
@@ -253,48 +272,34 @@ void DistributedSearch::searchChunk(const BoxRecords& wide, std::size_t set, std
   const bool isOneSet = m_sets.size() == 1;
   const auto wideId = [&wide](std::size_t i) { return wide.id(i); };
   const auto localId = [&local](std::size_t i) { return local.firstId + i; };
-  std::vector<Pair> kept;
-  const auto searchBetween = [&](OverlapOptions options, const BoxView& first, const BoxView& second, auto take) {
+  const auto withLimit = [&](OverlapOptions options) {
     // Pairs are found that are another's too: each twice, and a box with itself, but for what rounding makes of margins.
     constexpr std::uint64_t kMost = std::numeric_limits<std::uint64_t>::max();
-    const std::uint64_t limit = m_options.maxPairs;
-    const bool isAny = m_isCount || limit > (kMost - wide.size()) / 2;
-    options.maxPairs = isAny ? kMost : 2 * limit + wide.size();
-    OverlapSearch search(std::move(options));
-    std::span<const Pair> found;
-    bool isFound = false;
-    try {
-      if (!m_isCount) found = search.find(first, second);
-      isFound = !m_isCount;
-    } catch (const LimitExceeded&) {  // add() says how many of them count
-      options = search.options();
-      options.maxPairs = kMost;
-      search.setOptions(std::move(options));
-    }
-    if (isFound) {
-      take(found);
-    } else {
-      search.stream(first, second, take);
-    }
+    const bool isAny = m_isCount || m_options.maxPairs > (kMost - wide.size()) / 2;
+    options.maxPairs = isAny ? kMost : 2 * m_options.maxPairs + wide.size();
+    return options;
   };
+  std::vector<Pair> kept;
   if (isOneSet || set == 0) {
-    searchBetween(optionsFor(wide.bits(), local.bits), wide.boxes(), local.boxes, [&](std::span<const Pair> pairs) {
+    const auto take = [&](std::span<const Pair> pairs) {
       kept.clear();
       for (const Pair pair : pairs) {
         if (!isOneSet || wideId(pair.first) < localId(pair.second)) kept.push_back(pair);
       }
       add(kept, wideId, localId);
-    });
+    };
+    searchBetween(withLimit(optionsFor(wide.bits(), local.bits)), wide.boxes(), local.boxes, take);
   }
   if (isOneSet || set == 1) {
-    searchBetween(optionsFor(local.bits, wide.bits()), local.boxes, wide.boxes(), [&](std::span<const Pair> pairs) {
+    const auto take = [&](std::span<const Pair> pairs) {
       kept.clear();
       for (const Pair pair : pairs) {
         const bool isBefore = !isOneSet || localId(pair.first) < wideId(pair.second);
         if (isBefore && isWideHere[pair.first] == 0) kept.push_back(pair);
       }
       add(kept, localId, wideId);
-    });
+    };
+    searchBetween(withLimit(optionsFor(local.bits, wide.bits())), local.boxes, wide.boxes(), take);
   }
 }
 

@@ -47,6 +47,8 @@ class DistributedSearch {
   void searchCell(std::span<CellBoxes> sets, const partition::Cell& cell, partition::CellSearch& search);
   void searchWide(const Distribution& distribution, std::size_t set);
   void searchChunk(const BoxRecords& wide, std::size_t set, std::span<const char> isWideHere);
+  template <class Take>
+  void searchBetween(OverlapOptions options, const BoxView& first, const BoxView& second, const Take& take) const;
   void fetchCell(const Distribution& distribution, std::size_t round, std::size_t set, CellBoxes& boxes) const;
   [[nodiscard]] OverlapOptions optionsFor(const FilterBits& first, const FilterBits& second) const;
   template <class FirstId, class SecondId>
