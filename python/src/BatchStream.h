@@ -26,8 +26,6 @@ class BatchStream {
   explicit BatchStream(Search search);
   BatchStream(const BatchStream&) = delete;
   BatchStream& operator=(const BatchStream&) = delete;
-  BatchStream(BatchStream&&) = delete;
-  BatchStream& operator=(BatchStream&&) = delete;
   ~BatchStream();
 
   /// Whether next() has something to give, within that time.

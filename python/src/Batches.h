@@ -20,8 +20,6 @@ class Batches {
           std::size_t batchSize);
   Batches(const Batches&) = delete;
   Batches& operator=(const Batches&) = delete;
-  Batches(Batches&&) = delete;
-  Batches& operator=(Batches&&) = delete;
   ~Batches();
 
   /// Null after the last batch. Signals are handled while it waits.

@@ -80,8 +80,6 @@ class AlarmDistance {
   }
   AlarmDistance(const AlarmDistance&) = delete;
   AlarmDistance& operator=(const AlarmDistance&) = delete;
-  AlarmDistance(AlarmDistance&&) = delete;
-  AlarmDistance& operator=(AlarmDistance&&) = delete;
   ~AlarmDistance() { m_method.setAlarmDistance(m_before); }
 
  private:
