@@ -35,18 +35,16 @@ class Step(NamedTuple):
     """Pairs of the last step that no longer exist; their boxes may have been removed."""
 
 
+#: The properties that are integers, in the order in which _core.World.state() has them.
+_LABELS = ("category", "mask", "group", "static", "world")
+
+
 def _properties(size: int, values: dict[str, Any]) -> _core.Properties:
     """Fields of boxes from numbers or arrays; what is None is not set."""
     properties = _core.Properties(size)
-    for name, setter in (
-        ("category", properties.set_category),
-        ("mask", properties.set_mask),
-        ("group", properties.set_group),
-        ("static", properties.set_static),
-        ("world", properties.set_world),
-    ):
+    for name in _LABELS:
         if values[name] is not None:
-            setter(_arguments.labels(name, values[name], size))
+            getattr(properties, "set_" + name)(_arguments.labels(name, values[name], size))
     if values["margin"] is not None:
         margins = _arguments.floats("margin", _spread(values["margin"], size))
         properties.set_margin(_arguments.contiguous(_arguments.of_length("margin", margins, size), dtype=np.float64))
@@ -124,8 +122,7 @@ class World:
     def __getstate__(self) -> dict[str, Any]:
         """The settings, and ids, bounds and properties of all boxes; and the attributes that others have set."""
         ids, boxes, properties, margin = map(np.asarray, self._core.state())
-        names = ("category", "mask", "group", "static", "world")
-        columns = {name: properties[:, i].copy() for i, name in enumerate(names)}
+        columns = {name: properties[:, i].copy() for i, name in enumerate(_LABELS)}
         own = {name: value for name, value in vars(self).items() if name not in ("_settings", "_core")}
         return {"settings": self._settings, "ids": ids, "boxes": boxes, "margin": margin, **columns, "attributes": own}
 
@@ -142,9 +139,8 @@ class World:
         self.remove(np.setdiff1d(np.arange(bound, dtype=np.uint32), ids, assume_unique=True))
         self.step()
         self.move(ids, state["boxes"])
-        names = ("category", "mask", "group", "static", "margin", "world")
         # States of earlier versions have no worlds.
-        self.set_properties(ids, **{name: state[name] for name in names if name in state})
+        self.set_properties(ids, **{name: state[name] for name in (*_LABELS, "margin") if name in state})
 
     def add(
         self,
