@@ -20,7 +20,20 @@ class Scene:
     def region(self) -> Optional[list[float]]: ...
     def detect(self, options: DetectionOptions) -> PairArray: ...
 
-def load(path: str, search_roots: list[str], partial: bool, sofa: str, allow_outside: bool, max_memory: int, recursive: bool) -> Scene: ...
+class SofaVersion:
+    from_scene: SofaVersion
+    sofa_2006: SofaVersion
+    sofa_2612: SofaVersion
+
+class ReadOptions:
+    search_roots: list[str]
+    partial: bool
+    sofa: SofaVersion
+    allow_outside: bool
+    max_memory: int
+    recursive: bool
+
+def load(path: str, options: ReadOptions) -> Scene: ...
 
 class BoxValueFiles:
     margin: list[str]

@@ -188,12 +188,19 @@ def load(
     """
     from . import _reading
 
-    roots = _arguments.paths_of("search_roots", search_roots)
-    version = _arguments.choice("sofa", sofa, {known: known for known in ("", "20.06", "26.12")})
-    memory = _arguments.whole("max_memory", max_memory)
-    flags = _arguments.flag("partial", partial), version, _arguments.flag("allow_outside", allow_outside)
-    deep = _arguments.flag("recursive", recursive)
-    return Scene(_reading.load(_arguments.path_of("path", path), roots, *flags, memory, deep))
+    versions = {
+        "": _reading.SofaVersion.from_scene,
+        "20.06": _reading.SofaVersion.sofa_2006,
+        "26.12": _reading.SofaVersion.sofa_2612,
+    }
+    options = _reading.ReadOptions()
+    options.search_roots = _arguments.paths_of("search_roots", search_roots)
+    options.sofa = _arguments.choice("sofa", sofa, versions)
+    options.max_memory = _arguments.whole("max_memory", max_memory)
+    options.partial = _arguments.flag("partial", partial)
+    options.allow_outside = _arguments.flag("allow_outside", allow_outside)
+    options.recursive = _arguments.flag("recursive", recursive)
+    return Scene(_reading.load(_arguments.path_of("path", path), options))
 
 
 def detect(

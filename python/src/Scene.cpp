@@ -16,17 +16,7 @@ namespace allpairs::python {
 namespace py = pybind11;
 namespace {
 
-// NOLINTNEXTLINE(readability-function-size): the arguments that Python gives.
-std::shared_ptr<LoadedScene> load(const std::filesystem::path& path, std::vector<std::filesystem::path> searchRoots,
-                                  bool partial, const std::string& sofa, bool allowOutside, std::uint64_t maxMemory,
-                                  bool recursive) {
-  scene::ReadOptions options;
-  options.searchRoots = std::move(searchRoots);
-  options.partial = partial;
-  if (!sofa.empty()) options.sofa = sofa == "20.06" ? scene::SofaVersion::Sofa2006 : scene::SofaVersion::Sofa2612;
-  options.allowOutside = allowOutside;
-  options.maxMemory = maxMemory;
-  options.recursive = recursive;
+std::shared_ptr<LoadedScene> load(const std::filesystem::path& path, scene::ReadOptions& options) {
   return stoppably(kLong, Runs::Alone, [&](const StopFlag& stop) {
     options.stop = &stop;
     return std::make_shared<LoadedScene>(path, options);
@@ -62,9 +52,25 @@ std::optional<Bounds> regionOf(const LoadedScene& scene) {
   return Bounds{box->min[0], box->min[1], box->min[2], box->max[0], box->max[1], box->max[2]};
 }
 
+void bindReadOptions(py::module_& module) {
+  py::enum_<scene::SofaVersion>(module, "SofaVersion")
+      .value("from_scene", scene::SofaVersion::FromScene)
+      .value("sofa_2006", scene::SofaVersion::Sofa2006)
+      .value("sofa_2612", scene::SofaVersion::Sofa2612);
+  py::class_<scene::ReadOptions>(module, "ReadOptions")
+      .def(py::init<>())
+      .def_readwrite("search_roots", &scene::ReadOptions::searchRoots)
+      .def_readwrite("partial", &scene::ReadOptions::partial)
+      .def_readwrite("sofa", &scene::ReadOptions::sofa)
+      .def_readwrite("allow_outside", &scene::ReadOptions::allowOutside)
+      .def_readwrite("max_memory", &scene::ReadOptions::maxMemory)
+      .def_readwrite("recursive", &scene::ReadOptions::recursive);
+}
+
 }  // namespace
 
 void bindScene(py::module_& module) {
+  bindReadOptions(module);
   py::class_<DetectionOptions>(module, "DetectionOptions")
       .def(py::init<>())
       .def_readwrite("distance", &DetectionOptions::distance)
