@@ -117,7 +117,7 @@ def _read_planned(path: str, shape: tuple[int, ...]) -> Array:
 
 def _files_of(value: Any) -> Optional[list[str]]:
     """The paths that an argument names; None if it is something else."""
-    if isinstance(value, (str, os.PathLike)):
+    if isinstance(value, (str, bytes, os.PathLike)):
         value = [value]
     elif isinstance(value, (np.ndarray, DaskArray)) or not np.iterable(value):
         return None
@@ -246,7 +246,7 @@ def _of_each_part(name: str, value: Any, begins: Sequence[int], prefix: str) -> 
 def _of_each_set(name: str, value: Any, sets: int) -> list[Any]:
     if sets == 1:
         return [value]
-    return list(_arguments.both(name, [value] if isinstance(value, str) else value))
+    return list(_arguments.both(name, [value] if isinstance(value, (str, bytes)) else value))
 
 
 def box_parts(values: Values) -> list[BoxParts]:

@@ -178,6 +178,16 @@ def test_no_boxes_and_few():
         assert found.compute().tolist() == allpairs.overlaps(boxes).tolist()
 
 
+def test_a_path_may_be_bytes(tmp_path):
+    boxes, margins = boxes_of("uniform", np.float32)[:500], np.linspace(0, 1, 500)
+    np.save(tmp_path / "boxes.npy", boxes)
+    np.save(tmp_path / "margins.npy", margins)
+    path, margin = os.fsencode(tmp_path / "boxes.npy"), os.fsencode(tmp_path / "margins.npy")
+    assert allpairs.dask.count(path, margin=margin) == allpairs.count(boxes, margin=margins)
+    with pytest.raises(allpairs.InvalidArgument, match="margin takes a number or a tuple of two"):
+        allpairs.dask.count(path, second=path, margin=margin)
+
+
 def test_files_in_and_files_out(tmp_path):
     boxes = boxes_of("uniform", np.float32)
     for name, part in (("a.npy", boxes[:10]), ("b.npy", boxes[10:10]), ("c.npy", boxes[10:])):
