@@ -32,20 +32,20 @@ std::vector<Box> reachesOf(const BoxView& boxes, double distance) {
 }
 
 /// Where to cut some boxes in two, and how many are on either side.
-struct Division {
+struct Split {
   std::uint32_t axis = 0;
   double at = 0.0;
   std::size_t low = 0;
   std::size_t high = 0;
 };
 
-Division divisionAt(std::span<const Box> reaches, std::uint32_t axis, double at) {
-  Division division{axis, at};
+Split splitAt(std::span<const Box> reaches, std::uint32_t axis, double at) {
+  Split split{axis, at};
   for (const Box& reach : reaches) {
-    division.low += reach.min[axis] < at ? 1U : 0U;
-    division.high += reach.max[axis] >= at ? 1U : 0U;
+    split.low += reach.min[axis] < at ? 1U : 0U;
+    split.high += reach.max[axis] >= at ? 1U : 0U;
   }
-  return division;
+  return split;
 }
 
 /// The minimum with the share `low` of all before it; the next greater one where no box is below it. None at infinity,
@@ -67,17 +67,17 @@ std::optional<double> cutOf(std::span<const Box> reaches, std::uint32_t axis, do
   return std::isfinite(at) ? std::optional(at) : std::nullopt;
 }
 
-std::optional<Division> divide(std::span<const Box> reaches, double low, std::vector<double>& minima,
+std::optional<Split> bestSplit(std::span<const Box> reaches, double low, std::vector<double>& minima,
                                const StopFlag* stop) {
-  std::optional<Division> best;
+  std::optional<Split> best;
   for (std::uint32_t axis = 0; axis < 3; ++axis) {
     checkStop(stop);
     const std::optional<double> at = cutOf(reaches, axis, low, minima);
     if (!at) continue;
-    const Division division = divisionAt(reaches, axis, *at);
-    const auto most = static_cast<double>(std::max(division.low, division.high));
+    const Split split = splitAt(reaches, axis, *at);
+    const auto most = static_cast<double>(std::max(split.low, split.high));
     if (most > kGreatestShare * static_cast<double>(reaches.size())) continue;
-    if (!best || division.low + division.high < best->low + best->high) best = division;
+    if (!best || split.low + split.high < best->low + best->high) best = split;
   }
   return best;
 }
@@ -122,21 +122,21 @@ class Partition::Cutter {
     if (parts < 2 || reaches.size() < 2) return sideOfCell(number);
     const std::size_t lowParts = parts / 2;
     const double share = static_cast<double>(lowParts) / static_cast<double>(parts);
-    const std::optional<Division> division = divide(reaches, share, m_minima, m_stop);
-    if (!division) return sideOfCell(number);
+    const std::optional<Split> split = bestSplit(reaches, share, m_minima, m_stop);
+    if (!split) return sideOfCell(number);
     const std::size_t place = m_cuts.size();
     const std::size_t highNumber = m_cells++;
-    m_cuts.push_back({division->at, division->axis, 0, 0});
-    const std::size_t axis = division->axis;
-    const std::size_t lowFor = partsFor(*division, parts);
+    m_cuts.push_back({split->at, split->axis, 0, 0});
+    const std::size_t axis = split->axis;
+    const std::size_t lowFor = partsFor(*split, parts);
     // Those on the low side stand in front, and then those on the high side; some are on both.
-    const auto lowEnd = std::partition(reaches.begin(), reaches.end(),
-                                       [&](const Box& reach) { return reach.min[axis] < division->at; });
+    const auto lowEnd =
+        std::partition(reaches.begin(), reaches.end(), [&](const Box& reach) { return reach.min[axis] < split->at; });
     const std::int32_t low = cut({reaches.begin(), lowEnd}, number, lowFor);
-    const auto highBegin = std::partition(reaches.begin(), reaches.end(),
-                                          [&](const Box& reach) { return reach.max[axis] < division->at; });
+    const auto highBegin =
+        std::partition(reaches.begin(), reaches.end(), [&](const Box& reach) { return reach.max[axis] < split->at; });
     for (auto reach = highBegin; reach != reaches.end(); ++reach) {  // a cut below the cell would divide nothing
-      reach->min[axis] = std::max(reach->min[axis], division->at);
+      reach->min[axis] = std::max(reach->min[axis], split->at);
     }
     const std::int32_t high = cut({highBegin, reaches.end()}, highNumber, parts - lowFor);
     m_cuts[place].low = low;
@@ -145,8 +145,8 @@ class Partition::Cutter {
   }
 
  private:
-  static std::size_t partsFor(const Division& division, std::size_t parts) {
-    const double share = static_cast<double>(division.low) / static_cast<double>(division.low + division.high);
+  static std::size_t partsFor(const Split& split, std::size_t parts) {
+    const double share = static_cast<double>(split.low) / static_cast<double>(split.low + split.high);
     const auto low = static_cast<std::size_t>(std::lround(share * static_cast<double>(parts)));
     return std::clamp<std::size_t>(low, 1, parts - 1);
   }
