@@ -18,8 +18,7 @@ allpairs_status createSet(allpairs_set** set, const Make& make) noexcept {
 
 template <class T>
 BoxView rowsOf(const T* rows, std::size_t count) {
-  constexpr std::size_t kMost =
-      std::numeric_limits<std::uint32_t>::max();  // also keeps the product below from wrapping
+  constexpr std::size_t kMost = std::numeric_limits<std::uint32_t>::max();  // keeps the product below from wrapping too
   if (count > kMost)
     throw InvalidArgument("a set of " + std::to_string(count) + " boxes; at most 4294967295 can be numbered");
   return BoxView::fromRows(requiredSpan(rows, 6 * count, "rows"));

@@ -32,8 +32,8 @@ struct ProjectedTriangles {
   ProjectedTriangles(const ViewMesh& mesh, std::uint32_t model, const Projection& projection)
       : indices(partOf(mesh.triangles, mesh.triangleEnds, model)) {
     if (indices.empty()) return;
-    const auto [least, most] =
-        std::minmax_element(indices.begin(), indices.end());  // a model's vertices are in one row
+    // A model's vertices are in one row.
+    const auto [least, most] = std::minmax_element(indices.begin(), indices.end());
     m_first = *least;
     m_points.reserve(*most - *least + 1);
     for (std::uint32_t i = *least; i <= *most; ++i) m_points.push_back(projection(vertexOf(mesh, i)));

@@ -27,8 +27,8 @@ struct Report {
   std::size_t pictured = 0;      ///< How many, from the first one, have pictures beside the page.
   const Since* since = nullptr;  ///< What has become of an earlier report, if there is one.
   std::vector<ReportFact> facts{};
-  std::string
-      withoutPage{};  ///< Why there is no page, view.html, beside it that shows clashes in 3D; empty: there is one.
+  /// Why there is no page, view.html, beside it that shows clashes in 3D; empty: there is one.
+  std::string withoutPage{};
 };
 
 /// A length's unit as a word: 0.001 metres are "millimetres"; "units of 0.7 m" where no word is known.

@@ -69,8 +69,8 @@ struct ViewScene {
   std::vector<ViewFrame> frames;       ///< At least one.
   std::vector<scene::Remark> ignored;
   scene::DetectionStatistics statistics;
-  std::vector<ExactPair>
-      exact{};  ///< What the shapes of the first frame's pairs say, in their order; empty: not asked.
+  /// What the shapes of the first frame's pairs say, in their order; empty: not asked.
+  std::vector<ExactPair> exact{};
   std::vector<std::uint8_t> sides{};  ///< From where each of these pairs is seen best, if chooseSides() was called.
   double exactSeconds = 0.0;
   double clearance = 0.0;
@@ -88,8 +88,8 @@ struct ViewScene {
   std::vector<std::string> identities{};
   std::vector<std::string> bodyIdentities{};
 
-  std::vector<std::string>
-      kinds{};                     ///< Of each model, in the format's own words: "IfcColumn"; empty where none has one.
+  /// Of each model, in the format's own words: "IfcColumn"; empty where none has one.
+  std::vector<std::string> kinds{};
   std::vector<std::string> ids{};  ///< Of each model its GlobalId, where it has one.
 
   [[nodiscard]] std::uint32_t bodyOf(std::uint32_t model) const { return bodies.empty() ? model : bodies[model]; }

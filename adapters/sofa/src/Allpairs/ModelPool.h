@@ -41,9 +41,9 @@ class ModelPool {
   void bring(sofa::core::CollisionModel& root);
   void notePlaces();
 
-  std::vector<std::unique_ptr<TrackedModel>>
-      m_models;            // those of this step, then those of the last that didn't come yet
-  std::size_t m_used = 0;  // how many there are of this step
+  // Those of this step, then those of the last that didn't come yet.
+  std::vector<std::unique_ptr<TrackedModel>> m_models;
+  std::size_t m_used = 0;                                                       // how many there are of this step
   std::unordered_map<const sofa::core::CollisionModel*, std::size_t> m_places;  // of the others, once one is looked for
   bool m_hasPlaces = false;
   std::vector<collision::HostedModel*> m_added;

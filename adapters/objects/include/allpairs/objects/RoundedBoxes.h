@@ -25,9 +25,10 @@ class RoundedBoxes {
   /// So many boxes are a block: those with the numbers from block * kBlock on.
   static constexpr std::size_t kBlock = 64;
 
-  /// Numbers too great for float32 become infinity.
+  /// Of more boxes nearest() finds none.
   static constexpr std::size_t kMostForNearest = std::size_t{1} << 20;
 
+  /// Numbers too great for float32 become infinity.
   template <class T>
   [[nodiscard]] static Row rounded(const T* row) {
     Row result{};
@@ -63,8 +64,8 @@ class RoundedBoxes {
  private:
   void grow(std::size_t boxes);
 
-  std::vector<float>
-      m_bounds;            ///< By bound: m_room minx, m_room miny, ... Those behind the last box are of empty ones.
+  /// By bound: m_room minx, m_room miny, ... Those behind the last box are of empty ones.
+  std::vector<float> m_bounds;
   std::size_t m_room = 0;  ///< A multiple of kBlock.
   std::size_t m_size = 0;
 };
