@@ -10,6 +10,7 @@
 #include "allpairs/BoxView.h"
 #include "allpairs/PairPredicate.h"
 #include "allpairs/scene/ReadOptions.h"
+#include "cli/Options.h"
 
 namespace allpairs::app {
 

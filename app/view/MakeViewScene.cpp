@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "view/MakeViewScene.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <map>
 #include <numbers>
