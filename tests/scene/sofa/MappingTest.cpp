@@ -39,6 +39,9 @@ TEST_F(SofaMapping, RigidFramesAreChosenByIndex) {
   EXPECT_THAT(box(kTwoFrames, points + "<RigidMapping rigidIndexPerPoint='1 0'/>"), IsBox(Corners{12, 0, 0, 21, 0, 0}));
   EXPECT_THAT(box(kTwoFrames, points + "<RigidMapping repartition='1'/>"), IsBox(Corners{11, 0, 0, 22, 0, 0}));
   EXPECT_THAT(box(kTwoFrames, points + "<RigidMapping repartition='0 2'/>"), IsBox(Corners{21, 0, 0, 22, 0, 0}));
+  EXPECT_THAT(box(kTwoFrames, "<MechanicalObject position='1 0 0 2 0 0 3 0 0'/><RigidMapping repartition='1-2'/>"),
+              IsBox(Corners{11, 0, 0, 23, 0, 0}))
+      << "one point for the first frame and two for the second";
 }
 
 TEST_F(SofaMapping, AFrameThatIsNotThereIsNamed) {
@@ -96,6 +99,20 @@ TEST_F(SofaMapping, SubsetsTakeIndicesARangeOrTheNearest) {
   EXPECT_THAT(box(parent, "<MechanicalObject/><SubsetMapping first='1' last='2'/>"), IsBox(Corners{1, 0, 0, 2, 0, 0}));
   EXPECT_THAT(box(parent, "<MechanicalObject position='2.2 0 0 9 0 0'/><SubsetMapping radius='0.5'/>"),
               IsBox(Corners{2, 0, 0, 9, 0, 0}));
+  EXPECT_THAT(box(parent, "<MechanicalObject position='2.5 0 0 4 0 0'/><SubsetMapping radius='0.5'/>"),
+              IsBox(Corners{2.5, 0, 0, 4, 0, 0}))
+      << "not those as far away as the radius";
+  EXPECT_THAT(box(parent, "<MechanicalObject/><SubsetMapping first='3' last='5'/>"), IsBox(Corners{3, 0, 0, 4, 0, 0}))
+      << "there is no fifth, and the last one counts";
+  EXPECT_THAT(box(parent, "<MechanicalObject/><SubsetMapping first='5' last='1'/>"), IsBox(Corners{0, 0, 0, 1, 0, 0}))
+      << "there is no fifth, and the first one counts";
+}
+
+TEST_F(SofaMapping, SubsetsOfFramesAreTurnedAsTheyAre) {
+  const auto scene = readIn(
+      R"(<MechanicalObject template="Rigid" position="5 0 0 0 0 0 1  9 0 0 0 0 0.70710678118654752 0.70710678118654752"/>
+      <Node><MechanicalObject template="Rigid"/><SubsetMapping indices="1"/><OBBModel extents="3 2 1"/></Node>)");
+  EXPECT_THAT(onlyBox(scene), IsBox(Corners{7, -3, -1, 11, 3, 1}));
 }
 
 TEST_F(SofaMapping, PointsInTetrahedraStayWhereTheyAre) {
@@ -242,6 +259,13 @@ TEST_F(SofaMapping, ARigidFrameCarriesADeformableBody) {
               IsBox(Corners{10, 1, 0, 10, 2, 0}));
 }
 
+TEST_F(SofaMapping, AFrameBeforeTheFirstCarriesNothing) {
+  EXPECT_THAT(complaintIn(R"(<MechanicalObject name="frame" template="Rigid"/><MechanicalObject name="body"/>
+      <Node><MechanicalObject name="c"/><DeformableOnRigidFrameMapping input1="@../body" input2="@../frame" output="@c"
+      index="-1"/><PointModel/></Node>)"),
+              HasSubstr("how its rigid frames carry its points"));
+}
+
 TEST_F(SofaMapping, ASkinStaysWhereItIsWhileItsBonesRest) {
   const std::string skin = "<MechanicalObject position='1 2 3'/><SkinningMapping/>";
   EXPECT_THAT(box(kTwoFrames, skin), IsBox(Corners{1, 2, 3, 1, 2, 3}));
@@ -345,6 +369,12 @@ TEST_F(SofaMapping, PointsOfASparseGridAreNotTakenForNone) {
                                  "name='b' input_position='@a.output_position'/><MechanicalObject "
                                  "position='@a.output_position'/><PointModel/>"),
               HasSubstr("sparse grid, which this reader does not compute"));
+  EXPECT_THAT(complaintIn(grid +
+                          "<MechanicalObject name='s' dx2='5'/><Node><MechanicalObject "
+                          "position='@../s.rest_position'/>" +
+                          kOnSparseGrid + "</Node>"),
+              HasSubstr("sparse grid, which this reader does not compute"))
+      << "at rest they are elsewhere";
 }
 
 TEST_F(SofaMapping, PointsOnBeamsFollowTheirFrames) {
@@ -362,6 +392,7 @@ TEST_F(SofaMapping, PointsOnBeamsFollowTheirFrames) {
   EXPECT_THAT(onlyBox(on("2 0.5 0")), IsBox(Corners{6, 0, 7, 6, 0, 7}));
   EXPECT_THAT(onlyBox(on("1.5 0.5 0")), IsBox(Corners{4, 1, 6, 4, 1, 6}));
   EXPECT_THAT(onlyBox(on("-1 0 0")), IsBox(Corners{-2, 0, 5, -2, 0, 5}));
+  EXPECT_THAT(onlyBox(on("3 0 0")), IsBox(Corners{10, 0, 5, 10, 0, 5})) << "the last beam goes on";
   EXPECT_THAT(onlyBox(on("1 0.3 5.5  4 0 5", "localCoord='0'")), IsBox(Corners{1, 0, 5, 4, 0.3, 5.5}));
   EXPECT_THAT(complaintIn(beams + "<Node><MechanicalObject position='99 0 0'/><PointModel/><BeamLinearMapping "
                                   "localCoord='0'/></Node>"),
@@ -369,73 +400,6 @@ TEST_F(SofaMapping, PointsOnBeamsFollowTheirFrames) {
   EXPECT_THAT(complaintIn("<MechanicalObject template='Rigid3'/><Node><MechanicalObject position='0 0 0'/><PointModel/>"
                           "<BeamLinearMapping/></Node>"),
               HasSubstr("two frames or more"));
-}
-
-/// Two bodies, the second on a joint at x = 1 of the first and at x = -1 of itself, and a point in the second one's
-/// middle.
-std::string articulated(const std::string& values, const std::string& axes, const std::string& center = "",
-                        const std::string& mapping = "", const std::string& second = "0 0 0 0 0 0 1") {
-  return "<MechanicalObject name='base' template='Rigid3' position='0 0 9 0 0 0 1  0 0 5 0 0 0 1'/>"
-         "<Node name='system'><MechanicalObject name='values' template='Vec1d' position='" +
-         values + "'/><Node><MechanicalObject name='bodies' template='Rigid3' position='0 0 0 0 0 0 1  " + second +
-         "'/><ArticulatedSystemMapping input1='@../values' output='@bodies' " + mapping +
-         "/><Node><MechanicalObject position='0 0 0'/><PointModel/><RigidMapping index='1'/></Node></Node>"
-         "<ArticulatedHierarchyContainer/><Node><Node><ArticulationCenter parentIndex='0' childIndex='1' "
-         "posOnParent='1 0 0' posOnChild='-1 0 0' " +
-         center + "/><Node>" + axes + "</Node></Node></Node></Node>";
-}
-
-constexpr auto kAboutZ = "<Articulation rotation='1' axis='0 0 2' articulationIndex='0'/>";
-constexpr auto kThenAboutX = "<Articulation rotation='1' rotationAxis='1 0 0' articulationIndex='1'/>";
-constexpr auto kThenAlongX = "<Articulation translation='1' axis='1 0 0' articulationIndex='1'/>";
-constexpr auto kRight = "1.5707963267948966 ";  // a right angle
-
-TEST_F(SofaMapping, ArticulatedBodiesHangOnEachOther) {
-  const std::string right = kRight;
-  const std::string both = std::string(kAboutZ) + kThenAboutX;
-  const auto at = [&](const std::string& scene) { return onlyBox(readIn(scene)); };
-  const auto is = [](double x, double y, double z) { return IsBox(Corners{x, y, z, x, y, z}); };
-  EXPECT_THAT(at(articulated("0", kAboutZ)), is(2, 0, 0));
-  EXPECT_THAT(at(articulated(right, kAboutZ)), is(1, 1, 0));
-  // The second axis is turned by the first, or is the parent's, or is that of the child as it was.
-  EXPECT_THAT(at(articulated(right + right, both)), is(1, 1, 0));
-  EXPECT_THAT(at(articulated(right + right, both, "articulationProcess='1'")), is(1, 0, 1));
-  EXPECT_THAT(at(articulated(right + right, both, "articulationProcess='2'")), is(1, 0, 1));
-  EXPECT_THAT(at(articulated(right + right, both, "articulationProcess='2'", "",
-                             "0 0 0  0 0 0.70710678118654752 0.70710678118654752")),
-              is(1, 1, 0));
-  EXPECT_THAT(at(articulated(right + "2", std::string(kAboutZ) + kThenAlongX)), is(1, 3, 0));
-  EXPECT_THAT(at(articulated(right + "2", std::string(kAboutZ) + kThenAlongX, "articulationProcess='1'")), is(3, 1, 0));
-  // The whole is where the last frame of another state is, or one that is named.
-  EXPECT_THAT(at(articulated(right, kAboutZ, "", "input2='@../../base'")), is(1, 1, 5));
-  EXPECT_THAT(at(articulated(right, kAboutZ, "", "input2='@../../base' indexInput2='0'")), is(1, 1, 9));
-}
-
-TEST_F(SofaMapping, BeamsOfArticulatedBodiesAreAsLongAsTheirFramesAreWritten) {
-  // The frames are written 3 apart, and the joint puts the second one 2 from the first.
-  auto text = articulated("0", kAboutZ, "", "", "3 0 0 0 0 0 1");
-  const std::string rigid = "<RigidMapping index='1'/>", point = "<MechanicalObject position='0 0 0'/>";
-  text.replace(text.find(rigid), rigid.size(), "<BeamLinearMapping/>");
-  text.replace(text.find(point), point.size(), "<MechanicalObject position='0 0 0  1 0.5 0'/>");
-  EXPECT_THAT(onlyBox(readIn(text)), IsBox(Corners{0, 0, 0, 2, 1.5, 0}));
-}
-
-TEST_F(SofaMapping, ArticulatedBodiesWithoutJointsStayWhereTheyAreAndThatIsSaid) {
-  auto text = articulated("0", kAboutZ, "", "", "7 0 0 0 0 0 1");
-  text.replace(text.find("input1"), 6, "input");
-  const auto scene = readIn(text);
-  EXPECT_THAT(onlyBox(scene), IsBox(Corners{7, 0, 0, 7, 0, 0}));
-  EXPECT_THAT(scene.warnings.back().reason, HasSubstr("it names no input1"));
-}
-
-TEST_F(SofaMapping, ArticulatedBodiesThatCannotBePlacedAreAnError) {
-  EXPECT_THAT(complaintIn(articulated("0", kThenAboutX)), HasSubstr("a value that its input does not have"));
-  EXPECT_THAT(complaintIn(articulated("0 0", "<ArticulationCenter childIndex='2'/>")),
-              HasSubstr("a frame that its output"));
-  EXPECT_THAT(complaintIn(articulated("", kAboutZ)), HasSubstr("more articulations than values"));
-  EXPECT_THAT(complaintIn(articulated("0 2", kThenAlongX, "articulationProcess='2'")), HasSubstr("does not follow"));
-  EXPECT_THAT(complaintIn(articulated("0", kAboutZ, "", "input2='@nowhere'")), HasSubstr("nowhere to be found"));
-  EXPECT_THAT(complaintIn(articulated("0", kAboutZ, "", "container='@nowhere'")), HasSubstr("no Articulated"));
 }
 
 /// A cube of length 1 as a Wavefront file.
@@ -465,6 +429,18 @@ TEST_F(SofaMapping, ASparseGridHasTheCellsThatASurfaceRunsThroughOrEncloses) {
               HasSubstr("sparse grid, which this reader does not compute"));
   EXPECT_THAT(complaintIn("<SparseGridTopology fileTopology='cube.obj'/><MechanicalObject/><LineModel/>"),
               HasSubstr("the edges and faces of its sparse grid"));
+  const std::string cube = "<SparseGridTopology name='grid' fileTopology='cube.obj' n='2 2 2'/>";
+  EXPECT_THAT(
+      onlyBox(readIn(cube + "<Node><MechanicalObject position='@../grid.position' dx='1'/><PointModel/></Node>")),
+      IsBox(Corners{0.99, -0.01, -0.01, 2.01, 1.01, 1.01}));
+  EXPECT_THAT(complaintIn(cube + "<Node><MechanicalObject position='@../grid.position'/><MeshTopology "
+                                 "triangles='@../grid.triangles'/><TriangleModel/></Node>"),
+              HasSubstr("its triangles are those of a sparse grid"));
+  EXPECT_THAT(
+      complaintIn("<Node name='a'><SparseGridTopology name='grid' fileTopology='none.obj'/></Node>"
+                  "<MeshTopology position='1 2 3 4 5 6' edges='0 1'/><MechanicalObject/><Node><MechanicalObject/>"
+                  "<BarycentricMapping input_topology='@../a/grid'/><PointModel/></Node>"),
+      HasSubstr("its sparse grid moves in an unknown way"));
 }
 
 TEST_F(SofaMapping, PointsInASparseGridFollowAFrameThatCarriesIt) {
