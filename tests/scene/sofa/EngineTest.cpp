@@ -48,6 +48,16 @@ TEST_F(SofaEngine, ABoxChoosesPointsAndElements) {
   EXPECT_THAT(complaintIn(chosen("orientedBox='0 0 0 1 0 0 1 1 0 1'") +
                           "<Node><MechanicalObject position='@../roi.pointsInROI'/><PointModel/></Node>"),
               HasSubstr("which this reader cannot compute"));
+  EXPECT_THAT(complaintIn(std::string{kRow} + "<BoxROI name='roi' position='@m.position' triangles='0 1 8'/>" + child +
+                          "@../roi.trianglesInROI'/><TriangleModel/></Node>"),
+              HasSubstr("its elements name points that are not there"));
+}
+
+TEST_F(SofaEngine, ABoxBesideALoaderAndNoStateChoosesFromTheLoader) {
+  write("a.obj", "v 0.5 0 0\nv 2 0 0\nv 0 1 0\nf 1 2 3\n");
+  EXPECT_EQ(pointsOf("<MechanicalObject position='0 0 1'/><Node><MeshObjLoader filename='a.obj'/><BoxROI name='roi'/>"
+                     "<Node><MechanicalObject position='@../roi.pointsInROI'/><PointModel/></Node></Node>"),
+            (std::vector<Vec3>{{0.5, 0, 0}, {0, 1, 0}}));
 }
 
 TEST_F(SofaEngine, PlacesAndTurnsMakeFrames) {
@@ -103,8 +113,11 @@ TEST_F(SofaEngine, ALineIsRolledUpToASpiral) {
   EXPECT_NEAR(rolled[1][1], kAngle / 2 * std::sin(kAngle), 1e-12);
   EXPECT_EQ(rolled[2][0], -rolled[1][0]);
   EXPECT_EQ(rolled[2][1], -rolled[1][1]);
-  const auto across = rolled[3] - rolled[1];
-  EXPECT_NEAR(std::sqrt(dot(across, across)), 0.5, 1e-12);
+  // Across the line: along the spiral's normal, which points inward here.
+  const double sine = std::sin(kAngle), cosine = std::cos(kAngle);
+  const double x = -sine - kAngle * cosine, y = cosine - kAngle * sine, length = std::hypot(x, y);
+  EXPECT_NEAR(rolled[3][0], rolled[1][0] + 0.5 * x / length, 1e-12);
+  EXPECT_NEAR(rolled[3][1], rolled[1][1] + 0.5 * y / length, 1e-12);
 }
 
 /// A cube from -1 to 1, a little off the middle, of which a face is two triangles that face outward.

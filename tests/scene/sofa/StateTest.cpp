@@ -118,6 +118,11 @@ TEST_F(SofaState, RigidFramesLinkedFromPointsAreNotTurned) {
 TEST_F(SofaState, AScaleMayBeLinkedFromAnotherState) {
   EXPECT_THAT(box("<MechanicalObject name='a' scale='2'/><MechanicalObject position='1 1 1' scale3d='@a.scale3d'/>"),
               IsBox(Corners{2, 2, 2, 2, 2, 2}));
+  write("a.obj", "v 0 0 0\n");
+  EXPECT_THAT(box("<MeshObjLoader name='l' filename='a.obj' scale3d='2 1 1' scale='3'/>"
+                  "<MechanicalObject position='1 1 1' scale3d='@l.scale3d'/>"),
+              IsBox(Corners{6, 3, 3, 6, 3, 3}))
+      << "a loader multiplies its two scales";
 }
 
 TEST_F(SofaState, WhatIsNoFiniteNumberIsNamed) {

@@ -34,6 +34,9 @@ std::string onCorners(const std::string& topology) {
 TEST_F(SofaTopology, MeshesDeriveEdgesAndFacesFromCells) {
   EXPECT_EQ(counts(onCorners("<MeshTopology tetrahedra='0 1 2 4'/>")), (Counts{8, 6, 4}));
   EXPECT_EQ(counts(onCorners("<MeshTopology tetrahedra='0 1 2 4 0 2 1 6'/>")), (Counts{8, 9, 7}));
+  // A face that two tetrahedra have the same way round is there twice in a mesh, and once in a container.
+  EXPECT_EQ(counts(onCorners("<MeshTopology tetrahedra='0 1 2 4 0 1 2 6'/>")), (Counts{8, 9, 8}));
+  EXPECT_EQ(counts(onCorners("<TetrahedronSetTopologyContainer tetrahedra='0 1 2 4 0 1 2 6'/>")), (Counts{8, 9, 7}));
   EXPECT_EQ(counts(onCorners("<MeshTopology hexahedra='0 1 2 3 4 5 6 7'/>")), (Counts{8, 12, 12}));
   EXPECT_EQ(counts(onCorners("<MeshTopology triangles='0 1 2 0 2 3'/>")), (Counts{8, 5, 2}));
   EXPECT_EQ(counts(onCorners("<MeshTopology quads='0 1 2 3'/>")), (Counts{8, 4, 2}));
@@ -63,6 +66,13 @@ TEST_F(SofaTopology, ContainersDeriveFromTheirOwnElements) {
 
 TEST_F(SofaTopology, ContainersIgnoreElementsThatTheyCannotHold) {
   EXPECT_EQ(counts(onCorners("<EdgeSetTopologyContainer edges='0 1' triangles='0 1 2'/>")), (Counts{8, 1, 0}));
+  EXPECT_EQ(counts(onCorners("<TetrahedronSetTopologyContainer tetrahedra='0 1 2 4' quads='0 1 2 3'/>")),
+            (Counts{8, 6, 4}));
+  EXPECT_EQ(counts(onCorners("<HexahedronSetTopologyContainer hexahedra='0 1 2 3 4 5 6 7' triangles='0 1 2'/>")),
+            (Counts{8, 12, 12}));
+  EXPECT_EQ(counts(onCorners("<HexahedronSetTopologyContainer hexahedra='0 1 2 3 4 5 6 7' quads='0 1 2 3'/>")),
+            (Counts{8, 12, 2}))
+      << "quads, which these hold, are not derived where they are given";
 }
 
 TEST_F(SofaTopology, ContainersWithoutPointsDeriveEdges) {
@@ -155,6 +165,11 @@ TEST_F(SofaGrid, AResolutionBelowOneBecomesTwo) {
   EXPECT_EQ(counts("<RegularGrid n='0 5 5' max='3 3 3'/><MechanicalObject/>").points, 8U);
 }
 
+TEST_F(SofaGrid, CellsOfAWidthAreCountedAndKeepTheSpacingThatWasWritten) {
+  EXPECT_EQ(counts("<RegularGrid cellWidth='0.4'/><MechanicalObject/>").points, 64U) << "ceil(1 / 0.4) + 1 = 4";
+  EXPECT_THAT(box("cellWidth='0.4'"), IsBox(Corners{0, 0, 0, 3, 3, 3}));
+}
+
 TEST_F(SofaGrid, ResolutionsOutOfAllReasonDoNotEatTheMemory) {
   for (const auto n : {"1000000000 1 1", "100000 100000 100000", "1e300 1 1"})
     EXPECT_THAT(complaintIn("<RegularGridTopology n='" + std::string{n} + "'/><MechanicalObject/><PointModel/>"),
@@ -183,6 +198,22 @@ TEST_F(SofaTopology, MappingsGoFromTheParentsTopologyToTheirOwnNodesUnlessTold) 
     <TetrahedronSetTopologyContainer/><TetrahedronSetTopologyModifier/><Hexa2TetraTopologicalMapping/><TetrahedronModel/></Node>)");
   ASSERT_EQ(scene.models.size(), 1U);
   EXPECT_EQ(scene.models[0].elementCount(), 6U);
+}
+
+TEST_F(SofaTopology, NeighbouringCubesAreCutAsMirrorImagesIfTheyAreToldTo) {
+  const auto cut = [&](const std::string& grid, const std::string& data) {
+    return readIn("<RegularGridTopology " + grid + "/><MechanicalObject/><Node><TetrahedronSetTopologyContainer/>" +
+                  "<TetrahedronSetTopologyModifier/><Hexa2TetraTopologicalMapping " + data +
+                  "/><TetrahedronModel/></Node>")
+        .models.at(0)
+        .tetrahedra;
+  };
+  EXPECT_EQ(cut("n='2 2 2'", ""),
+            (Elements<4>{{0, 5, 1, 7}, {0, 1, 2, 7}, {1, 2, 7, 3}, {7, 2, 0, 6}, {7, 6, 0, 5}, {6, 5, 4, 0}}));
+  EXPECT_EQ(cut("n='2 2 2'", "swapping='1'"),
+            (Elements<4>{{1, 4, 6, 0}, {1, 0, 6, 3}, {0, 3, 2, 6}, {6, 3, 7, 1}, {6, 7, 4, 1}, {7, 4, 1, 5}}));
+  // Two cubes along y and two along z: the third is mirrored in x and in z.
+  EXPECT_EQ(cut("n='2 3 3'", "swapping='1'").at(12), (std::array<Index, 4>{13, 6, 12, 8}));
 }
 
 TEST_F(SofaTopology, HexahedraShowTheQuadsOfTheirBorderAndQuadsTwoTrianglesEach) {
@@ -289,6 +320,9 @@ TEST_F(SofaCube, ASquareMadeByACreatorIsCutByItsPattern) {
   };
   EXPECT_EQ(counts(square("")), (Counts{6, 9, 4}));
   EXPECT_EQ(counts(square("trianglePattern='0'")), (Counts{6, 7, 4})) << "two quads, of two triangles each";
+  EXPECT_EQ(counts(square("trianglePattern='4'")), (Counts{6, 0, 0})) << "SOFA has no such pattern";
+  EXPECT_EQ(counts("<GridMeshCreator name='l' resolution='2 3'/><MeshTopology src='@l'/><MechanicalObject src='@l'/>"),
+            (Counts{6, 9, 4}));
   const auto scene = readIn(square("trianglePattern='1' scale3d='2 3 1' translation='1 0 0'") + "<TriangleModel/>");
   EXPECT_THAT(onlyBox(scene), IsBox(Corners{1, 0, 0, 3, 3, 0}));
   EXPECT_EQ(scene.models[0].triangles, (Elements<3>{{0, 1, 4}, {0, 4, 3}, {1, 2, 4}, {2, 5, 4}}));
@@ -296,6 +330,14 @@ TEST_F(SofaCube, ASquareMadeByACreatorIsCutByItsPattern) {
             (std::array<Index, 3>{0, 1, 3}));
   EXPECT_THAT(complaintIn("<GridMeshCreator name='l' resolution='1 2'/><MechanicalObject src='@l'/><PointModel/>"),
               HasSubstr("two points in each direction"));
+}
+
+TEST_F(SofaTopology, ASubsetOfTetrahedraThatAreGivenIsOfTheseAlone) {
+  const auto scene = readIn(R"(<MeshTopology name="m" position="0 0 0 1 0 0 0 1 0 0 0 1 5 5 5" tetrahedra="0 1 2 3"/>
+    <Node><SubsetTopology name="s" rest_position="@../m.position" tetrahedra="1 2 3 4" box="-1 -1 -1 9 9 9"/>
+    <Node><MechanicalObject position="@../../m.position"/><TetrahedronSetTopologyContainer
+    tetrahedra="@../s.tetrahedraInROI"/><TetrahedronModel/></Node></Node>)");
+  EXPECT_EQ(scene.models.at(0).tetrahedra, (Elements<4>{{1, 2, 3, 4}}));
 }
 
 TEST_F(SofaTopology, ASubsetIsWhatLiesInBoxesOrSpheres) {
@@ -324,7 +366,13 @@ TEST_F(SofaTopology, ASubsetIsWhatLiesInBoxesOrSpheres) {
   EXPECT_EQ(out.models[0].positions.size(), 8U);
   EXPECT_THAT(boxOf(out.models[1]), IsBox(Corners{0, 0, 0, 3, 1, 0}));
   EXPECT_EQ(out.models[1].triangles[0], (std::array<Index, 3>{4, 0, 2}));
+  // Of the points inside, only 1 and 5 belong to triangles that are partly outside; 0 and 4 come behind them.
+  const auto first = readIn(subset("box='-1 -1 -1 1.5 2 1' localIndices='1'", "InROI"));
+  EXPECT_EQ(first.models[0].positions, (std::vector<Vec3>{{1, 0, 0}, {1, 1, 0}, {0, 0, 0}, {0, 1, 0}}));
+  EXPECT_EQ(first.models[1].triangles, (Elements<3>{{2, 0, 1}, {2, 1, 3}}));
   EXPECT_THAT(complaintIn(subset("centers='0 0 0'", "InROI")), HasSubstr("not one radius for each centre"));
+  EXPECT_THAT(complaintIn(subset("centers='0 0 0 1 0 0' radii='1'", "InROI")),
+              HasSubstr("not one radius for each centre"));
   EXPECT_THAT(complaintIn(subset(box + " tetrahedraInput='0'", "InROI")), HasSubstr("cannot compute"));
 }
 
