@@ -154,6 +154,13 @@ TEST_F(SofaMeshFile, VtkIsReadAsXmlAndAsText) {
   }
 }
 
+TEST_F(SofaMeshFile, EdgesOfTheSecondOrderInVtkJoinTheirEnds) {
+  const auto m = mesh("a.vtk",
+                      "# vtk DataFile Version 3.0\ntitle\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 3 float\n"
+                      "0 0 0 1 0 0 0.5 0 0\nCELLS 1 4\n3 0 1 2\nCELL_TYPES 1\n21\n");
+  EXPECT_THAT(m.edges, ElementsAre(Line{0, 1}));
+}
+
 TEST_F(SofaMeshFile, VtkMayBeBinary) {
   const std::string one("\x3f\x80\0\0", 4), zero(4, '\0');
   const auto number = [](char n) { return std::string(3, '\0') + n; };

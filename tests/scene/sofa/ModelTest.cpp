@@ -90,14 +90,15 @@ TEST_F(SofaModel, DefaultsAreThoseOfTheContract) {
 
 TEST_F(SofaModel, FlagsAreReadInEverySpelling) {
   const auto scene = readIn(std::string{kMesh} + R"(
-    <PointModel simulated="0" moving="false" selfCollision="1" proximity="0.25" group="3 1 -2"/>
-    <TriangleModel simulated="False" moving="f" selfCollision="true" contactDistance="0.5" useCurvature="1"/>)");
-  ASSERT_EQ(scene.models.size(), 2U);
+    <PointModel simulated="0" moving="false" selfCollision="1" proximity="0.25" group="3 1 -2 9"/>
+    <TriangleModel simulated="False" moving="f" selfCollision="true" contactDistance="0.5" useCurvature="1"/>
+    <LineModel simulated="00" moving="F" selfCollision="-1"/>)");
+  ASSERT_EQ(scene.models.size(), 3U);
   for (const auto& model : scene.models) {
     EXPECT_FALSE(model.simulated || model.moving);
     EXPECT_TRUE(model.selfCollision);
   }
-  EXPECT_THAT(scene.models[0].groups, ElementsAre(-2, 1, 3));
+  EXPECT_THAT(scene.models[0].groups, ElementsAre(-2, 1, 3, 9));
   EXPECT_EQ(scene.models[0].contactDistance, 0.25);
   EXPECT_EQ(scene.models[1].contactDistance, 0.5);
   EXPECT_TRUE(scene.models[1].useCurvature);
@@ -302,6 +303,8 @@ TEST_F(SofaModel, MethodsOfTheSameBoxesAreProximityMethods) {
   const auto scene = readIn("<CCDTightInclusionIntersection continuousCollisionType='Inertia'/>");
   ASSERT_EQ(scene.warnings.size(), 1U);
   EXPECT_THAT(scene.warnings[0].reason, HasSubstr("continuous"));
+  EXPECT_THAT(readIn("<CCDTightInclusionIntersection continuousCollisionType='0'/>").warnings, IsEmpty())
+      << "the number of None";
 }
 
 TEST_F(SofaModel, ModelsOfPluginsAreNotOverlooked) {

@@ -137,6 +137,20 @@ TEST_F(ReadSofaScene, DistanceGridsAreTheBoxOfTheirSurfaceOrTheCellsThatBendIt) 
   EXPECT_EQ(scene.models[1]->typeName(), "FFDDistanceGridCollisionModel");
   EXPECT_EQ(scene.models[1]->getSize(), 2U);
   EXPECT_THAT(rootOf(*scene.models[1]), IsBox(Corners{1, 0, -1, 3, 4, 4}));
+  // The grid may be elsewhere, and need not be named.
+  const std::string grid = "<SparseGridTopology name='grid' n='2 2 3' filename='a.obj' min='0 0 -1' max='2 4 4'/>";
+  const std::string surface = "<FFDDistanceGridCollisionModel filename='a.obj' ";
+  const auto others =
+      read("<Node name='a'>" + grid + "</Node><Node><MechanicalObject position='@../a/grid.position'/>" + surface +
+           "topology='@../a/grid'/></Node><Node><MechanicalObject/>" + grid + surface + "/></Node>");
+  ASSERT_EQ(others.models.size(), 2U);
+  for (const auto& model : others.models) {
+    EXPECT_EQ(model->getSize(), 2U);
+    EXPECT_THAT(rootOf(*model), IsBox(Corners{0, 0, -1, 2, 4, 4}));
+  }
+  EXPECT_THAT(
+      [&] { (void)read("<MeshTopology position='0 0 0 1 1 1' edges='0 1'/><MechanicalObject/>" + surface + "/>"); },
+      testing::ThrowsMessage<FileError>(HasSubstr("its topology is no grid")));
   const auto refuses = [&](const std::string& data, const std::string& why) {
     const auto text = "<MechanicalObject template='Rigid3'/><DistanceGridCollisionModel " + data + "/>";
     EXPECT_THAT([&] { (void)read(text); }, testing::ThrowsMessage<FileError>(HasSubstr(why)));
@@ -160,6 +174,7 @@ TEST_F(ReadSofaScene, WhatAModelRefusesIsNamedWithItsLineOrLeftOut) {
   ASSERT_EQ(scene.remarks.size(), 1U);
   EXPECT_EQ(scene.remarks[0].subject, "/s");
   EXPECT_EQ(scene.remarks[0].line, 3U);
+  EXPECT_TRUE(scene.remarks[0].isPartial);
 }
 
 TEST(ReadSofaDataScenes, GiveThePairsThatSofaPrintedInItsOrder) {
