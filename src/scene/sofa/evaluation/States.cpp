@@ -95,7 +95,7 @@ void takePoints(Evaluation& evaluation, const Component& component, State& state
   state.resize(tooLate ? 0 : topology.pointCount);
   for (std::size_t i = 0; i < state.positions.size(); ++i) state.positions[i] = topology.position(i);
   state.fromTopology = AffineMap{};
-  state.pointsUnknown = topology.unknown && !tooLate;
+  state.pointsUnknown = topology.unknown;
 }
 
 /// How many entries the other vectors of a state have that were written out.
@@ -146,7 +146,7 @@ void place(Evaluation& evaluation, const Component& component, State& state) {
 const Component* linkedState(const Component& state) {
   const auto link = parseLink(state.attributes.value("position", state.attributes.value("src")));
   const auto* from = link ? followPath(*state.node, &state, link->path).component : nullptr;
-  if (from == nullptr || !isState(*from) || from->order >= state.order) return nullptr;
+  if (from == nullptr || !isState(*from)) return nullptr;
   const bool isPosition = link->data.empty() || link->data == "position";
   return isPosition || !state.attributes.has("position") ? from : nullptr;
 }
