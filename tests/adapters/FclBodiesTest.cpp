@@ -37,6 +37,23 @@ TEST(FclBodies, OfSeveralPartsTheNearestCountsWhicheverBoxIsNearest) {
   EXPECT_NEAR(examine(capsules, ball).distance, 0.9, kClose);
 }
 
+TEST(FclBodies, OfPartsThatAreAsDeepOrAsFarAsEachOtherTheFirstIsReported) {
+  for (const double start : {0.0, 16.0}) {
+    const double end = 16.0 - start;
+    SphereModel balls("balls", {{start, 0, 0}, {end, 0, 0}}, {}, 1.0);
+    SphereModel deep("deep", {{0, 0, 1.5}, {16, 0, 1.5}}, {}, 1.0);
+    const auto clash = examine(balls, deep);
+    EXPECT_THAT(clash.depth, ::testing::Optional(0.5));
+    EXPECT_EQ(clash.pointOnFirst[0], start);
+    EXPECT_EQ(clash.pointOnSecond[0], start);
+    SphereModel far("far", {{0, 0, 3}, {16, 0, 3}}, {}, 1.0);
+    const auto apart = examine(balls, far);
+    EXPECT_EQ(apart.distance, 1.0);
+    EXPECT_EQ(apart.pointOnFirst[0], start);
+    EXPECT_EQ(apart.pointOnSecond[0], start);
+  }
+}
+
 TEST(FclBodies, OneThatHasVolumeGivesTheDepthAPlace) {
   SphereModel first("first", {{0, 0, 0}, {10, 0, 0}}, {1.0, 0.0});
   SphereModel second("second", {{0, 0, 1.5}, {10, 0, 0}}, {1.0, 0.0});
