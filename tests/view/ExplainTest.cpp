@@ -77,6 +77,18 @@ TEST(Explain, TellsTheWidestGapAndItsAxisAndTheSmallestCommonGroup) {
   EXPECT_EQ(explain(scene, scene.frames.front(), 3, 2).group, 7);
 }
 
+TEST(Explain, AnEmptyBoxIsApartFromAllAlongNoAxis) {
+  const ViewScene scene = sceneOf(kRules);
+  for (const std::size_t empty : {0U, 1U}) {
+    view::ViewFrame frame = scene.frames.front();
+    frame.boxes[empty] = kEmptyBox;
+    const auto apart = explain(scene, frame, 1, 0);
+    EXPECT_EQ(apart.verdict, Verdict::Apart);
+    EXPECT_EQ(apart.axis, -1);
+    EXPECT_EQ(apart.gap, 0.0);
+  }
+}
+
 TEST(Explain, GivesThePairsOfTheBroadPhaseInItsOrder) {
   const std::vector<std::string> paths{kRules, kFlat, ALLPAIRS_SOURCE_DIR "/examples/scenes/demo.scn",
                                        ALLPAIRS_SOURCE_DIR "/examples/boxes.csv"};

@@ -166,6 +166,8 @@ TEST(PageSize, MoreThanAPageHoldsIsRefusedWithAdvice) {
   };
   EXPECT_NE(complaint(1).find("a smaller distance, or fewer inputs"), std::string::npos) << complaint(1);
   EXPECT_NE(complaint(2).find("fewer frames, or a smaller distance"), std::string::npos) << complaint(2);
+  scene.corners = {0, 1, 2};
+  EXPECT_NE(complaint(1).find("fewer frames, or a smaller distance"), std::string::npos) << "the first of a sequence";
 }
 
 TEST(PageSize, CountsPositionsAsFloatsWhereTheyAreAndBoxesWhereThereAreNone) {

@@ -100,6 +100,31 @@ TEST(ReportSince, MarksWhatIsNewPersistsAndIsResolved) {
   EXPECT_NE(readBytes(folder.path() / "again/index.html").find(nothingNew), std::string::npos);
 }
 
+TEST(ReportSince, TopicsOfWhatIsResolvedHaveTheHeaderOfTheirVersion) {
+  const TempFolder folder;
+  const std::string parts = folder.path() / "parts";
+  for (const char* name : {"a", "b"}) folder.write("parts/" + std::string(name) + ".obj", kTriangle);
+  expectSuccess(runProgram({"report", parts, "--boxes", "-o", folder.path() / "before"}));
+  folder.write("parts/b.obj", "v 9 9 9\nv 10 9 9\nv 9 10 10\nf -3 -2 -1\n");
+  for (const std::string version : {"2.1", "3.0"}) {
+    const fs::path out = folder.path() / version;
+    expectSuccess(
+        runProgram({"report", parts, "--boxes", "--bcf", version, "-o", out, "--since", folder.path() / "before"}));
+    std::size_t count = 0;
+    for (const auto& [name, bytes] : filesOf(out / "clashes.bcf")) {
+      if (!name.ends_with("markup.bcf")) continue;
+      const pugi::xml_document document = parse(bytes);
+      EXPECT_STREQ(document.child("Markup").child("Topic").attribute("TopicStatus").value(), "Closed");
+      const pugi::xml_node header = document.child("Markup").child("Header");
+      const bool isThree = version == "3.0";
+      const pugi::xml_node file = isThree ? header.child("Files").child("File") : header.child("File");
+      EXPECT_STREQ(file.attribute(isThree ? "IsExternal" : "isExternal").value(), "true") << version;
+      ++count;
+    }
+    EXPECT_EQ(count, 1U) << version;
+  }
+}
+
 TEST(ReportSince, ComparesWhatWasAClashAndHowDeepItWas) {
   const TempFolder folder;
   const auto write = [&](double lid, double d, double f) {
@@ -206,6 +231,10 @@ TEST(ReportSince, SaysWhatIsNoReport) {
   const std::string table = folder.write("other.csv", "a,b\n1,2\n");
   expectFailure(runProgram({"report", kDemoScene, "-o", out, "--since", table}), 3,
                 "other.csv: is no table of a report");
+  for (const char* head : {"nr,first,second,guid", "number,one,second,guid", "number,first,two,guid",
+                           "number,first,second,id", "number,first,second"})
+    expectFailure(runProgram({"report", kDemoScene, "-o", out, "--since", folder.write("near.csv", head)}), 3,
+                  "near.csv: is no table of a report");
   const std::string hostile =
       folder.write("hostile.csv", "number,first,second,guid\n1,a,b,../../../../../../../../../../../../\n");
   expectFailure(runProgram({"report", kDemoScene, "-o", out, "--since", hostile}), 3, "a line has other columns");
