@@ -131,6 +131,26 @@ TEST_F(DetectWorlds, OfWrongShapesOrOptionsAreRefused) {
   expectFailure(runProgram({"detect", nan, "--worlds"}), kBadInput, "nan.npy: world 2: box 5");
 }
 
+TEST_F(DetectWorlds, TheTableNamesTheFirstWorldWithTheMostPairsAndCountsThoseWithoutAny) {
+  std::vector<Box> boxes;
+  const auto addWorld = [&boxes](const std::vector<double>& places) {
+    for (const double x : places) boxes.push_back({{x, 0, 0}, {x + 1, 1, 1}});
+  };
+  addWorld({0, 5, 10});
+  addWorld({0, 0.25, 0.5});  // each with each other
+  addWorld({0, 0.25, 0.5});
+  addWorld({0, 0.5, 10});
+  const std::string file = folder.write("four.npy", npyBytes(boxes, {.descr = "<f8", .shape = "(4, 3, 6)"}));
+  const ProgramRun run = runProgram({"detect", file, "--worlds"});
+  expectSuccess(run);
+  EXPECT_TRUE(run.out.starts_with("worlds   4 of 3 boxes\npairs    7; most in world 1, 3; none in 1 world\n"))
+      << run.out;
+  const std::string none = folder.write("none.npy", npyBytes({}, {.descr = "<f8", .shape = "(0, 3, 6)"}));
+  const ProgramRun ofNone = runProgram({"detect", none, "--worlds"});
+  expectSuccess(ofNone);
+  EXPECT_TRUE(ofNone.out.starts_with("worlds   0 of 3 boxes\npairs    0\n")) << ofNone.out;
+}
+
 TEST_F(DetectWorlds, TakeTheMemoryThatTheirNumbersTake) {
   for (const auto& [type, size] : {std::pair{"<f4", 7200}, {"<f8", 14400}}) {
     write(type);

@@ -114,9 +114,20 @@ TEST_F(Exact, WhatIsApartByNoMoreThanTheClearanceIsWithinIt) {
   expectSuccess(run);
   EXPECT_THAT(run.out, HasSubstr("1 touching, 1 within the clearance\n\n"));
   EXPECT_THAT(run.out, HasSubstr("\n  clearance    d-far       c-shim      0.25 between (3.25, "));
+  // A distance that is larger than the clearance keeps its candidates.
+  EXPECT_THAT(detect({"--clearance", "0.125"}).out, HasSubstr("1 touching, 1 apart\n\n"));
   expectFailure(runProgram({"detect", parts().string(), "--clearance", "1"}), 2, "add --exact, or use --distance");
   expectFailure(runProgram({"detect", parts().string(), "--exact", "--clearance", "-1"}), 2,
                 "--clearance: '-1' is not a distance from 0 on");
+}
+
+TEST_F(Exact, WhatIsToBeRepairedIsRedAndWhatIsToBeNotedIsYellow) {
+  const std::string text = detect({"--color", "always"}).out;
+  EXPECT_THAT(text, HasSubstr("\n  \033[1;31mcontained "));
+  EXPECT_THAT(text, HasSubstr("\n  \033[1;31mclash "));
+  EXPECT_THAT(text, HasSubstr("\n  \033[33mtouching "));
+  EXPECT_THAT(text, HasSubstr("\n  apart "));
+  EXPECT_THAT(detect({"--color", "always", "--clearance", "0.25"}).out, HasSubstr("\n  \033[33mclearance "));
 }
 
 TEST_F(Exact, ClashesNoDeeperThanAskedForOnlyTouch) {
