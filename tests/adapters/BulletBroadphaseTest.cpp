@@ -163,6 +163,8 @@ TEST(BulletBroadphase, WhatIsNotFiniteHitsNothing) {
   for (const btScalar bad : {kInfinite, -kInfinite, kNan}) {
     broadphase.rayTest({-1, 0.5F, 0.5F}, {bad, 0.5F, 0.5F}, found);
     broadphase.rayTest({bad, 0.5F, 0.5F}, {3, 0.5F, 0.5F}, found);
+    broadphase.rayTest({-1, 0.5F, 0.5F}, {3, bad, 0.5F}, found);
+    broadphase.rayTest({-1, 0.5F, 0.5F}, {3, 0.5F, 0.5F}, found, {-1, -1, -1}, {1, bad, 1});
     broadphase.rayTest({-1, 0.5F, 0.5F}, {3, 0.5F, 0.5F}, found, {-1, -1, -1}, {1, 1, bad});
   }
   broadphase.aabbTest({0, 0, kNan}, {1, 1, 1}, found);
