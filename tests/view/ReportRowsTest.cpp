@@ -138,10 +138,13 @@ TEST(ReportOfBodies, HasARowForAllPairsOfTheSameTwo) {
 
 TEST(Report, OfNoMomentIsRefused) {
   const TempFolder folder;
-  for (const char* moment : {"99999999999999", "99999999999999999999"})
+  for (const char* moment : {"99999999999999", "99999999999999999999", "253402300800", "-62167219201"})
     expectFailure(runScript("SOURCE_DATE_EPOCH=" + std::string(moment) + " \"$0\" report '" + kDemoScene + "' -o '" +
                             folder.path().string() + "/o'"),
                   2, "SOURCE_DATE_EPOCH: '" + std::string(moment) + "' is no moment of the years 0 to 9999");
+  expectSuccess(runScript("SOURCE_DATE_EPOCH=253402300799 \"$0\" report '" + kDemoScene + "' -o '" +
+                          folder.path().string() + "/o'"));
+  EXPECT_NE(readBytes(folder.path() / "o/index.html").find("9999-12-31"), std::string::npos);
 }
 
 TEST(Report, TakesThePlaceOfNoInput) {

@@ -103,9 +103,10 @@ TEST(ReportSince, MarksWhatIsNewPersistsAndIsResolved) {
 TEST(ReportSince, TopicsOfWhatIsResolvedHaveTheHeaderOfTheirVersion) {
   const TempFolder folder;
   const std::string parts = folder.path() / "parts";
-  for (const char* name : {"a", "b"}) folder.write("parts/" + std::string(name) + ".obj", kTriangle);
+  folder.write("parts/a.obj", "o a\n" + kTriangle);
+  folder.write("parts/b.obj", "o 'b\n" + kTriangle);
   expectSuccess(runProgram({"report", parts, "--boxes", "-o", folder.path() / "before"}));
-  folder.write("parts/b.obj", "v 9 9 9\nv 10 9 9\nv 9 10 10\nf -3 -2 -1\n");
+  folder.write("parts/b.obj", "o 'b\nv 9 9 9\nv 10 9 9\nv 9 10 10\nf -3 -2 -1\n");
   for (const std::string version : {"2.1", "3.0"}) {
     const fs::path out = folder.path() / version;
     expectSuccess(
@@ -115,6 +116,7 @@ TEST(ReportSince, TopicsOfWhatIsResolvedHaveTheHeaderOfTheirVersion) {
       if (!name.ends_with("markup.bcf")) continue;
       const pugi::xml_document document = parse(bytes);
       EXPECT_STREQ(document.child("Markup").child("Topic").attribute("TopicStatus").value(), "Closed");
+      EXPECT_STREQ(document.child("Markup").child("Topic").child_value("Title"), "'b and a");
       const pugi::xml_node header = document.child("Markup").child("Header");
       const bool isThree = version == "3.0";
       const pugi::xml_node file = isThree ? header.child("Files").child("File") : header.child("File");

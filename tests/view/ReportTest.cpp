@@ -433,6 +433,16 @@ TEST_F(ReportOfShapes, BoxesAloneAreThereAsBeforeWithTheirOption) {
   EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 7) << table;
 }
 
+TEST_F(ReportOfShapes, WhatOnlyTouchesIsNotTheWorst) {
+  const TempFolder folder;
+  for (const bool isClash : {false, true}) {
+    const std::string boxes =
+        folder.write("b.csv", isClash ? "0,0,0,2,1,1\n1,0,0,2,1,1\n" : "0,0,0,1,1,1\n1,0,0,2,1,1\n");
+    expectSuccess(runProgram({"report", boxes, "--exact", "-o", folder.path() / "o"}));
+    EXPECT_EQ(readBytes(folder.path() / "o/index.html").find("<p class=\"worst\">") != std::string::npos, isClash);
+  }
+}
+
 TEST_F(ReportOfShapes, WhatIsWithinTheClearanceIsListed) {
   const std::string table = readBytes(report({"--clearance", "5"}) / "clashes.csv");
   EXPECT_NE(table.find("e-wedge,d-bar,clearance,,"), std::string::npos) << table;
