@@ -161,6 +161,14 @@ TEST(ReportSince, ComparesWhatWasAClashAndHowDeepItWas) {
   EXPECT_EQ(statusOf("new", out), "0");  // out is what is there now
   EXPECT_EQ(statusOf("clash", out), "4allpairs: --fail-on: found 3 rows of clashes");
   EXPECT_EQ(statusOf("pair", out), "4allpairs: --fail-on: found 4 rows");
+  const auto statusOfOne = [&](const std::string& what, const fs::path& earlier) {
+    const std::string boxes = folder.write("one.csv", "p,0,0,0,2,1,1\nq,1,0,0,2,1,1\n");
+    return runProgram({"report", boxes, "--exact", "-o", folder.path() / "one", "--since", earlier, "--fail-on", what})
+        .err;
+  };
+  EXPECT_EQ(statusOfOne("new", out), "allpairs: --fail-on: found 1 new row\n");
+  EXPECT_EQ(statusOfOne("clash", out), "allpairs: --fail-on: found 1 row of clashes\n");
+  EXPECT_EQ(statusOfOne("pair", out), "allpairs: --fail-on: found 1 row\n");
   expectFailure(runProgram({"report", folder.path(), "-o", out, "--fail-on", "new"}), 2, "add --since");
   // A report of boxes had no clashes, and one of unknown states may have had none.
   const fs::path ofBoxes = folder.path() / "boxes";
