@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "allpairs/bullet/BulletBroadphase.h"
 
+#include <BulletCollision/CollisionDispatch/btCollisionDispatcher.h>
+#include <BulletCollision/CollisionDispatch/btDefaultCollisionConfiguration.h>
 #include <BulletCollision/CollisionDispatch/btGhostObject.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -152,6 +154,24 @@ TEST(BulletBroadphase, AProxyOfNoGroupOrMaskHasNoPairsAndIsHitByRaysAndBoxes) {
   broadphase.setAabb(noMask, noMask->m_aabbMin, noMask->m_aabbMax, nullptr);
   EXPECT_THAT(pairsAfterAStep(), IsEmpty());
   for (auto* proxy : {plain, noMask, noGroup}) broadphase.destroyProxy(proxy, nullptr);
+}
+
+TEST(BulletBroadphase, ClientsAreTakenForObjectsOnlyWhereTheyAreThereAndADispatcherIsToo) {
+  btDefaultCollisionConfiguration configuration;
+  btCollisionDispatcher dispatcher(&configuration);
+  std::array<int, 256> noObject{};  // which would be a ghost, had it a type
+  noObject.fill(btCollisionObject::CO_GHOST_OBJECT);
+  for (const bool isDispatched : {true, false}) {
+    BulletBroadphase broadphase;
+    btDispatcher* const given = isDispatched ? &dispatcher : nullptr;
+    void* const client = isDispatched ? nullptr : noObject.data();
+    auto* const first = broadphase.createProxy({0, 0, 0}, {1, 1, 1}, 0, client, 1, -1, given);
+    auto* const second = broadphase.createProxy({0, 0, 0}, {1, 1, 1}, 0, client, 1, -1, given);
+    EXPECT_EQ(broadphase.getOverlappingPairCache()->getNumOverlappingPairs(), 0) << "before the step";
+    broadphase.calculateOverlappingPairs(given);
+    EXPECT_EQ(broadphase.getOverlappingPairCache()->getNumOverlappingPairs(), 1);
+    for (auto* proxy : {first, second}) broadphase.destroyProxy(proxy, given);
+  }
 }
 
 TEST(BulletBroadphase, WhatIsNotFiniteHitsNothing) {
