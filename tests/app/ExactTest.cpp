@@ -130,6 +130,19 @@ TEST_F(Exact, WhatIsToBeRepairedIsRedAndWhatIsToBeNotedIsYellow) {
   EXPECT_THAT(detect({"--color", "always", "--clearance", "0.25"}).out, HasSubstr("\n  \033[33mclearance "));
 }
 
+TEST_F(Exact, TheTableHasFiftyPairsAndTheNumberOfTheOthers) {
+  std::ofstream file(parts() / "row.csv");  // each box touches the next
+  for (int i = 0; i < 53; ++i) file << i << ",0,0," << i + 1 << ",1,1\n";
+  file.close();
+  const ProgramRun run = runProgram({"detect", (parts() / "row.csv").string(), "--exact"});
+  expectSuccess(run);
+  std::size_t lines = 0;
+  for (auto at = run.out.find("\n  touching "); at != std::string::npos; at = run.out.find("\n  touching ", at + 1))
+    ++lines;
+  EXPECT_EQ(lines, 50U);
+  EXPECT_THAT(run.out, HasSubstr("\n  ... and 2 more; "));
+}
+
 TEST_F(Exact, ClashesNoDeeperThanAskedForOnlyTouch) {
   const ProgramRun run = detect({"--min-depth", "0.125"});
   expectSuccess(run);

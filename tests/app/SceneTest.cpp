@@ -157,6 +157,13 @@ TEST(DetectScene, EachPipelinePairsItsOwnModels) {
     {"name": "/B/p", "method": "DiscreteIntersection", "distance": 0.0, "models": [2, 3, 4], "pairs": 1}])"));
   EXPECT_EQ(Json::parse(runProgram({"detect", scene, "--format", "json", "--distance", "1"}).out)["pairs"],
             Json::parse("[[1, 0], [3, 2], [4, 3]]"));
+  // What is counted of each is counted together: two models and three.
+  const Json statistics = result["statistics"];
+  EXPECT_EQ(statistics["testsOfAllPairs"], 1 + 3);
+  EXPECT_EQ(statistics["candidates"], 1 + 1);
+  EXPECT_GT(statistics["detectSeconds"], 0.0);
+  const ProgramRun exhaustive = runProgram({"detect", scene, "--format", "json", "--strategy", "exhaustive"});
+  EXPECT_EQ(Json::parse(exhaustive.out)["statistics"]["testsMade"], 1 + 3);
 }
 
 TEST(DetectScene, SeveralPipelinesAreNotTakenTogetherWithOtherInputs) {
