@@ -284,9 +284,10 @@ def box_set(
     depth_of_plane: Callable[[], float],
     prefix: str = "",
     single: bool = False,
+    axes_taken: Sequence[int] = (3, 2),
 ) -> BoxSet:
     """A set of boxes; those in the plane become so deep, up and down."""
-    low, high = _corners(lower, upper, prefix, (3, 2), single)
+    low, high = _corners(lower, upper, prefix, axes_taken, single)
     axes = low.shape[1]
     if axes == 2:
         flat = np.full((len(low), 1), depth_of_plane(), low.dtype)

@@ -54,7 +54,9 @@ def _settings(values: dict[str, Any], axes: int) -> _core.Options:
 def _one(values: dict[str, Any]) -> tuple[_core.Boxes, _core.Options]:
     margin = values["margin"]
     depth = lambda: _arguments.depth_of(values["distance"], [margin])
-    boxes, axes = _arguments.box_set(values["lower"], values["upper"], margin, depth)
+    boxes, axes = _arguments.box_set(
+        values["lower"], values["upper"], margin, depth, axes_taken=values.get("axes_taken", (3, 2))
+    )
     options = _settings(values, axes)
     _ignore(options, values["ignore"], len(boxes))
     _filter(options, _core.Side.FIRST, boxes, values, "")
@@ -76,7 +78,9 @@ def _two(values: dict[str, Any]) -> tuple[_core.Boxes, _core.Boxes, _core.Option
     for margin, name in zip(margins, ("first", "second")):
         prefix = f"{name} set: "
         lower, upper = _arguments.two_corners(values[name], prefix)
-        sets.append(_arguments.box_set(lower, upper, margin, depth, prefix))
+        sets.append(
+            _arguments.box_set(lower, upper, margin, depth, prefix, axes_taken=values.get("axes_taken", (3, 2)))
+        )
     options = _settings(values, _axes_of(sets[0], sets[1]))
     _ignore(options, values["ignore"], len(sets[0].boxes), len(sets[1].boxes))
     for i, (name, side) in enumerate((("first", _core.Side.FIRST), ("second", _core.Side.SECOND))):
@@ -111,7 +115,7 @@ def overlaps(
     lower, upper : array_like, shape (n, 3), float32 or float64
         The corners of n boxes. Or ``lower`` alone, of shape (n, 6): a row is minx miny minz maxx maxy maxz. Any
         strides are allowed. Arrays are copied only if one is float32 and the other float64, or for other types. Anything
-        with ``__array__``, ``__dlpack__`` or the buffer protocol in the processor's memory is one.
+        with ``__array__``, ``__dlpack__`` or the buffer protocol in the processor's memory counts as an array.
         Integers are converted to float64. Boxes in the plane have shape (n, 2), or alone (n, 4).
     distance : float
         Boxes that are at most this far apart on every axis are a pair. A negative distance requires that much overlap.

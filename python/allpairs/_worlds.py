@@ -90,12 +90,13 @@ def _labels(name: str, value: npt.ArrayLike, boxes: int, begin: npt.NDArray[np.u
     return _arguments.labels(name, array, one if array.size == one else boxes)
 
 
-def _margins(value: npt.ArrayLike | None, begin: npt.NDArray[np.uint64]) -> npt.ArrayLike | None:
+def _margins(value: npt.ArrayLike | None, boxes: int, begin: npt.NDArray[np.uint64]) -> npt.ArrayLike | None:
     """A margin for all boxes, or for each box of all worlds; those of one world, if they are of equal size, are repeated."""
     if value is None or _arguments.is_one(value):
         return value
     array = _flat("margin", _arguments.array_of("margin", value), begin)
-    return np.tile(array, len(begin) - 1) if array.size == _equal_size(begin) else array
+    worlds = len(begin) - 1
+    return np.tile(array, worlds) if array.size == _equal_size(begin) and array.size * worlds == boxes else array
 
 
 def overlaps_in_worlds(
@@ -162,7 +163,7 @@ def overlaps_in_worlds(
     ([[0, 0], [0, 0]], [0, 1, 2])
     """
     low, high, begin = _divided(lower, upper, offsets)
-    margin = _margins(margin, begin)
+    margin = _margins(margin, low.shape[0] if low.ndim else 0, begin)
     depth = lambda: _arguments.depth_of(distance, [margin])
     own = _arguments.box_set(low, high, margin, depth, single=True)
     boxes, axes = own

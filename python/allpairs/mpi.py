@@ -33,7 +33,7 @@ IdPairs = npt.NDArray[np.uint64]
 _Made = TypeVar("_Made")
 
 #: What the settings of a search have that a search on several ranks has not.
-_FIXED: dict[str, Any] = {"ignore": None, "strategy": "auto"}
+_FIXED: dict[str, Any] = {"ignore": None, "strategy": "auto", "axes_taken": (3,)}
 
 
 def _portable(problem: Optional[BaseException]) -> Optional[BaseException]:

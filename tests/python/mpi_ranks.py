@@ -46,7 +46,11 @@ same(allpairs.mpi.overlaps(comm, boxes if rank == ranks - 1 else boxes[:0]), all
 bad = boxes[mine].copy()
 if rank == ranks - 1:
     bad[5, 2] = np.nan
-for wrong, kind in ((bad, allpairs.InvalidBox), (boxes[mine] if rank else boxes[mine, :5], allpairs.InvalidArgument)):
+for wrong, kind in (
+    (bad, allpairs.InvalidBox),
+    (boxes[mine] if rank else boxes[mine, :5], allpairs.InvalidArgument),
+    (boxes[mine] if rank else boxes[mine, :4], allpairs.InvalidArgument),  # in the plane
+):
     try:
         allpairs.mpi.overlaps(comm, wrong)
     except kind as problem:
