@@ -9,7 +9,14 @@ import sys
 
 import allpairs
 import pytest
-from allpairs import _core, _files
+from allpairs import _core
+from conftest import READS_FILES
+
+EXTENSIONS = [_core]
+if READS_FILES:
+    from allpairs import _files
+
+    EXTENSIONS.append(_files)
 
 PACKAGE = pathlib.Path(allpairs.__file__).parent
 
@@ -74,7 +81,7 @@ def members(node):
     return public(fields | {part.name for part in node.body if isinstance(part, ast.FunctionDef)})
 
 
-@pytest.mark.parametrize("extension", [_core, _files])
+@pytest.mark.parametrize("extension", EXTENSIONS)
 def test_the_stub_of_the_extension_names_what_is_in_it_and_nothing_else(extension):
     stub = ast.parse((PACKAGE / f"{extension.__name__.rsplit('.')[-1]}.pyi").read_text())
     classes = {node.name: members(node) for node in stub.body if isinstance(node, ast.ClassDef)}
