@@ -356,8 +356,8 @@ typedef struct allpairs_step {
 
 /// Boxes that are added, moved and removed by id, their pairs step by step, and queries.
 ///
-/// Ids:       those of boxes added to a new world are consecutive, from 0. Ids of removed boxes are reused, but only after
-///            the step that reports that their pairs have ended.
+/// Ids:       those of boxes added to a new world are consecutive, from 0. Ids of removed boxes are reused, but only
+///            after the step that reports that their pairs have ended.
 /// Bad input: an id that is not in the world, or a NaN, is an ALLPAIRS_INVALID_BOX; the call then has no effect.
 typedef struct allpairs_world allpairs_world;
 

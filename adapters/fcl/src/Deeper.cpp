@@ -17,7 +17,11 @@
 namespace allpairs::exact {
 namespace {
 
+/// By how much more a depth may be missed: what docs/fcl.md promises.
 constexpr double kMuch = 1.01;
+
+/// Of one part in the other. With 300 one pair of some 1,100 of overlapping meshes had 0.65 of the depth that a grid of
+/// 2,000 points finds, with 500 at least 0.83.
 constexpr int kMostMeasures = 500;
 
 /// A point that was measured.
@@ -113,8 +117,8 @@ class DeeperSearch {
     addPiece({middle, to, other}, region.limit);
   }
 
-  /// Where the nearest triangles of the two are equally far, as on the ridge between two faces, so that one triangle tells
-  /// for either side how deep it is; else halfway.
+  /// Where the nearest triangles of the two are equally far, as on the ridge between two faces, so that one triangle
+  /// tells for either side how deep it is; else halfway.
   [[nodiscard]] Point cutBetween(const Measured& from, const Measured& to) const {
     constexpr double kLeast = 0.1;
     double at = 0.5;

@@ -55,6 +55,12 @@ std::vector<int> crossingsOf(const ExactPart& part, const std::vector<std::uint3
   return counts;
 }
 
+/// Whether a point is inside from which a ray passes so many triangles: those that bound a volume, counted as that of the
+/// shell asks for, and those of two sides.
+bool isInside(const Shell& shell, int count, int twoSided) {
+  return (shell.volume == Volume::Winding ? count != 0 : count % 2 != 0) || twoSided % 2 != 0;
+}
+
 /// Calls `found` with each triangle that the ray from a point passes, and the way it faces.
 template <class Found>
 void forEachPassed(const ExactPart& part, const Point& point, const Found& found) {
@@ -78,14 +84,12 @@ void forEachPassed(const ExactPart& part, const Point& point, const Found& found
 std::vector<Point> pointsInside(const ExactPart& part, std::span<const Point> points) {
   if (part.volume() == Volume::None || points.empty()) return {};
   const Shell& shell = part.shell();
-  const bool isWinding = shell.volume == Volume::Winding;
-  const std::vector<int> counts = crossingsOf(part, shell.triangles, points, isWinding);
+  const std::vector<int> counts = crossingsOf(part, shell.triangles, points, shell.volume == Volume::Winding);
   std::vector<int> twoSided(points.size(), 0);
   if (!shell.twoSided.empty()) twoSided = crossingsOf(part, shell.twoSided, points, false);
   std::vector<Point> inside;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const bool isIn = isWinding ? counts[i] != 0 : counts[i] % 2 != 0;
-    if (isIn || twoSided[i] % 2 != 0) inside.push_back(points[i]);
+    if (isInside(shell, counts[i], twoSided[i])) inside.push_back(points[i]);
   }
   return inside;
 }
@@ -102,7 +106,7 @@ bool isInside(const ExactPart& part, const Point& point) {
     if (holds(shell.triangles, triangle)) count += isWinding ? way : 1;
     if (holds(shell.twoSided, triangle)) ++twoSided;
   });
-  return (isWinding ? count != 0 : count % 2 != 0) || twoSided % 2 != 0;
+  return isInside(shell, count, twoSided);
 }
 
 }  // namespace allpairs::exact

@@ -40,7 +40,8 @@ struct JoinOptions {
   /// allocate itself. 0 means half of the machine's.
   std::uint64_t memory = 0;
 
-  /// The folder of the join's own files, which is created in one that is there. It stays after a failure, for `resume`, and goes otherwise.
+  /// The folder of the join's own files, which is created in one that is there. It stays after a failure, for `resume`,
+  /// and goes otherwise.
   std::filesystem::path work{};
 
   /// Goes on with what is in the work folder; starts from the beginning if there is nothing.

@@ -22,6 +22,14 @@ std::string articulated(const std::string& values, const std::string& axes, cons
          center + "/><Node>" + axes + "</Node></Node></Node></Node>";
 }
 
+/// The same with points on the beam between the bodies instead of one on the second body: at its start, and between.
+std::string onBeam(std::string scene) {
+  const std::string rigid = "<RigidMapping index='1'/>", point = "<MechanicalObject position='0 0 0'/>";
+  scene.replace(scene.find(rigid), rigid.size(), "<BeamLinearMapping/>");
+  scene.replace(scene.find(point), point.size(), "<MechanicalObject position='0 0 0  1 0.5 0'/>");
+  return scene;
+}
+
 constexpr auto kAboutZ = "<Articulation rotation='1' axis='0 0 2' articulationIndex='0'/>";
 constexpr auto kThenAboutX = "<Articulation rotation='1' rotationAxis='1 0 0' articulationIndex='1'/>";
 constexpr auto kThenAlongX = "<Articulation translation='1' axis='1 0 0' articulationIndex='1'/>";
@@ -50,10 +58,7 @@ TEST_F(SofaArticulated, ArticulatedBodiesHangOnEachOther) {
 
 TEST_F(SofaArticulated, BeamsOfArticulatedBodiesAreAsLongAsTheirFramesAreWritten) {
   // The frames are written 3 apart, and the joint puts the second one 2 from the first.
-  auto text = articulated("0", kAboutZ, "", "", "3 0 0 0 0 0 1");
-  const std::string rigid = "<RigidMapping index='1'/>", point = "<MechanicalObject position='0 0 0'/>";
-  text.replace(text.find(rigid), rigid.size(), "<BeamLinearMapping/>");
-  text.replace(text.find(point), point.size(), "<MechanicalObject position='0 0 0  1 0.5 0'/>");
+  const std::string text = onBeam(articulated("0", kAboutZ, "", "", "3 0 0 0 0 0 1"));
   EXPECT_THAT(onlyBox(readIn(text)), IsBox(Corners{0, 0, 0, 2, 1.5, 0}));
 }
 
@@ -88,10 +93,7 @@ TEST_F(SofaArticulated, AxesAreOfLengthOneOnlyWhereOneTurnsTheNext) {
 
 TEST_F(SofaArticulated, BeamsOfThemAreAsLongAsTheirFramesAreWrittenButForTheFirst) {
   // The first frame is where another state's is as the beams are measured: 5 above, and the second is written 12 along.
-  auto text = articulated("0", kAboutZ, "", "input2='@../../base'", "12 0 0 0 0 0 1");
-  const std::string rigid = "<RigidMapping index='1'/>", point = "<MechanicalObject position='0 0 0'/>";
-  text.replace(text.find(rigid), rigid.size(), "<BeamLinearMapping/>");
-  text.replace(text.find(point), point.size(), "<MechanicalObject position='0 0 0  1 0.5 0'/>");
+  const std::string text = onBeam(articulated("0", kAboutZ, "", "input2='@../../base'", "12 0 0 0 0 0 1"));
   EXPECT_THAT(onlyBox(readIn(text)), IsBox(Corners{0, 0, 5, 2, 6.5, 5}));
 }
 
