@@ -2,6 +2,7 @@
 #include "world/PairHistory.h"
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
 #include <utility>
 
@@ -16,6 +17,78 @@ namespace {
 /// Rows up to this length, as most are, are searched one by one and not by halves (moving_benchmark --scene
 /// one-percent).
 constexpr std::size_t kShortRow = 16;
+
+/// So many steps of a comparison are taken without branches (moving_benchmark).
+constexpr std::ptrdiff_t kFewSteps = 8;
+/// So many pairs that are in both lists are taken at once.
+constexpr std::ptrdiff_t kSamePairs = 4;
+
+/// Where the comparison of two ordered lists is: what is left of them, and where the next pairs go.
+struct Comparison {
+  const Pair* old;
+  const Pair* oldEnd;
+  const Pair* now;
+  const Pair* nowEnd;
+  Pair* persisted;
+  Pair* began;
+  Pair* ended;
+
+  /// Passes the next pair of the old list, of the new one, or of both. No branch depends on which.
+  void pass(bool isKept, bool isNeeded) noexcept {
+    const auto olds = static_cast<std::ptrdiff_t>(isKept);
+    const auto news = static_cast<std::ptrdiff_t>(isNeeded);
+    *persisted = *now;
+    *began = *now;
+    *ended = *old;
+    persisted += olds & news;
+    began += 1 - olds;
+    ended += 1 - news;
+    old += olds;
+    now += news;
+  }
+};
+
+bool areSame(const Pair* a, const Pair* b) noexcept {
+  std::uint64_t difference = 0;
+  for (std::ptrdiff_t i = 0; i < kSamePairs; ++i)
+    difference |= std::bit_cast<std::uint64_t>(a[i]) ^ std::bit_cast<std::uint64_t>(b[i]);
+  return difference == 0;
+}
+
+/// The keys that follow are read before it is known which of them come next, and chosen by arithmetic.
+template <Order order>
+void compareFew(Comparison& at) noexcept {
+  std::uint64_t oldKey = keyOf(*at.old, order);
+  std::uint64_t nowKey = keyOf(*at.now, order);
+  for (std::ptrdiff_t i = 0; i < kFewSteps; ++i) {
+    const std::uint64_t nextOld = keyOf(at.old[1], order);
+    const std::uint64_t nextNow = keyOf(at.now[1], order);
+    const bool isKept = oldKey <= nowKey;
+    const bool isNeeded = nowKey <= oldKey;
+    at.pass(isKept, isNeeded);
+    oldKey ^= (oldKey ^ nextOld) & (std::uint64_t{0} - std::uint64_t{isKept});
+    nowKey ^= (nowKey ^ nextNow) & (std::uint64_t{0} - std::uint64_t{isNeeded});
+  }
+}
+
+/// Compares up to a part of the lists.
+template <Order order>
+Comparison comparePart(Comparison at) noexcept {
+  for (std::size_t i = 0; i < kPartSize && at.old != at.oldEnd && at.now != at.nowEnd; i += kFewSteps) {
+    if (std::min(at.oldEnd - at.old, at.nowEnd - at.now) <= kFewSteps) {
+      const std::uint64_t oldKey = keyOf(*at.old, order);
+      const std::uint64_t nowKey = keyOf(*at.now, order);
+      at.pass(oldKey <= nowKey, nowKey <= oldKey);
+    } else if (areSame(at.old, at.now)) {
+      at.persisted = std::copy_n(at.now, kSamePairs, at.persisted);
+      at.old += kSamePairs;
+      at.now += kSamePairs;
+    } else {
+      compareFew<order>(at);
+    }
+  }
+  return at;
+}
 
 }  // namespace
 
@@ -167,38 +240,21 @@ Pair* PairHistory::copyAll(std::span<const Pair> pairs, Pair* to) const {
   return to;
 }
 
-/// Compares two ordered lists, without branches: pairs in both persist, pairs in only one began or ended.
+/// Compares two ordered lists: pairs in both persist, pairs in only one began or ended.
 void PairHistory::compare(std::span<const Pair> now) {
   const std::span<const Pair> old = m_result.pairs;
-  Pair* persisted = m_persisted.data();
-  Pair* began = m_began.data();
-  Pair* ended = m_ended.data();
-  std::size_t i = 0;
-  std::size_t k = 0;
-  while (i < old.size() && k < now.size()) {
+  const bool isByFirst = m_options->order == Order::ByFirst;
+  Comparison at{old.data(),         old.data() + old.size(), now.data(),    now.data() + now.size(),
+                m_persisted.data(), m_began.data(),          m_ended.data()};
+  while (at.old != at.oldEnd && at.now != at.nowEnd) {
     checkStop(m_options->stop);
-    const std::size_t oldEnd = std::min(old.size(), i + kPartSize);
-    const std::size_t nowEnd = std::min(now.size(), k + kPartSize);
-    while (i < oldEnd && k < nowEnd) {
-      const Pair was = old[i];
-      const Pair is = now[k];
-      const bool isKept = keyOf(was) <= keyOf(is);
-      const bool isNeeded = keyOf(is) <= keyOf(was);
-      *persisted = is;
-      *began = is;
-      *ended = was;
-      persisted += isKept && isNeeded ? 1 : 0;
-      began += isKept ? 0 : 1;
-      ended += isNeeded ? 0 : 1;
-      i += isKept ? 1U : 0U;
-      k += isNeeded ? 1U : 0U;
-    }
+    at = isByFirst ? comparePart<Order::ByFirst>(at) : comparePart<Order::BySecond>(at);
   }
-  ended = copyAll(old.subspan(i), ended);
-  began = copyAll(now.subspan(k), began);
-  m_result.persisted = {m_persisted.data(), persisted};
-  m_result.began = {m_began.data(), began};
-  m_result.ended = {m_ended.data(), ended};
+  at.ended = copyAll({at.old, at.oldEnd}, at.ended);
+  at.began = copyAll({at.now, at.nowEnd}, at.began);
+  m_result.persisted = {m_persisted.data(), at.persisted};
+  m_result.began = {m_began.data(), at.began};
+  m_result.ended = {m_ended.data(), at.ended};
 }
 
 /// Merges the pairs that persist with those that began.
