@@ -121,15 +121,14 @@ void PairHistory::shrink() noexcept {
   *this = std::move(rest);
 }
 
-/// The index of the first old pair of each box.
+/// The index of the first old pair of each box: each pair says where the next row begins, and rows without pairs begin
+/// where those before them end.
 void PairHistory::findRows() {
   const std::span<const Pair> pairs = m_result.pairs;
-  m_rowBegin.resize(std::max(m_rowBegin.size(), m_idBound + 1));
-  std::size_t row = 0;
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    for (; row <= rowOf(pairs[i]); ++row) m_rowBegin[row] = i;
-  }
-  std::fill(m_rowBegin.begin() + static_cast<std::ptrdiff_t>(row), m_rowBegin.end(), pairs.size());
+  m_rowBegin.assign(std::max(m_rowBegin.size(), m_idBound + 1), 0);
+  for (std::size_t i = 0; i < pairs.size(); ++i) m_rowBegin[rowOf(pairs[i]) + 1] = i + 1;
+  for (std::size_t row = 1; row < m_rowBegin.size(); ++row)
+    m_rowBegin[row] = std::max(m_rowBegin[row], m_rowBegin[row - 1]);
   m_rowsAreCurrent = true;
 }
 
