@@ -69,8 +69,10 @@ class SofaAnswers : public testing::Test {
                                          scene::SofaVersion sofa = scene::SofaVersion::Sofa2612) const {
     scene::ReadOptions options;
     options.sofa = sofa;
-    const auto path = m_folder.write("scene.scn", "<Node name='root'><CollisionPipeline/><BruteForceBroadPhase/>" +
-                                                      m_method + "\n" + body + "\n</Node>");
+    const auto path = m_folder.write("scene.scn",
+                                     "<Node name='root'><CollisionPipeline/><BruteForceBroadPhase/>"
+                                     "<BVHNarrowPhase/><CollisionResponse/>" +
+                                         m_method + "\n" + body + "\n</Node>");
     return answerOf(scene::readSofaScene(path, options));
   }
 

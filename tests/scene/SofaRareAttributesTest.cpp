@@ -25,8 +25,10 @@ class SofaRareAttributes : public testing::Test {
   };
 
   [[nodiscard]] Last last(const std::string& body, const std::string& broadPhase = "BruteForceBroadPhase") const {
-    const auto path = m_folder.write("scene.scn", "<Node name='root'><CollisionPipeline/><" + broadPhase +
-                                                      "/><DiscreteIntersection/>" + body + "</Node>");
+    const std::string narrowPhase = broadPhase == "BruteForceBroadPhase" ? "<BVHNarrowPhase/>" : "";
+    const auto path =
+        m_folder.write("scene.scn", "<Node name='root'><CollisionPipeline/><" + broadPhase + "/>" + narrowPhase +
+                                        "<CollisionResponse/><DiscreteIntersection/>" + body + "</Node>");
     const scene::Scene scene = scene::readSofaScene(path, {});
     auto& model = *scene.models.back();
     const auto elements = static_cast<std::size_t>(model.getSize());
@@ -157,14 +159,14 @@ TEST_F(SofaRareAttributes, ConstraintsThatMovePointsAtTheStartAreNamed) {
   const std::string body =
       "<Node name='A'><MechanicalObject position='0 0 0'/><OscillatorProjectiveConstraint "
       "name='o' oscillators='0 7 0 0 0 0 0 1 0'/><FixedProjectiveConstraint/>"
-      "<SphereModel radius='0.5'/></Node>";
+      "<SphereCollisionModel radius='0.5'/></Node>";
   EXPECT_THAT(last(body).warnings, testing::ElementsAre(testing::HasSubstr("A/o: SOFA may move points by it")));
 }
 
 TEST_F(SofaRareAttributes, ModelsWithoutElementsAreNamed) {
   const Last empty = last(
       "<Node name='A'><MeshTopology position='0 0 0 1 0 0' edges='0 1'/><MechanicalObject/>"
-      "<TriangleModel name='t'/></Node>");
+      "<TriangleCollisionModel name='t'/></Node>");
   EXPECT_EQ(empty.elements, 0U);
   EXPECT_THAT(empty.warnings, testing::ElementsAre("/A/t: it has no elements, and is in no pair"));
 }

@@ -286,7 +286,7 @@ TEST_F(SofaModel, ARegionThatIsNoBoxIsNamedWithItsLine) {
 
 TEST_F(SofaModel, AListOfRadiiThatLinksToNothingIsTheDefaultAndThatIsSaid) {
   const auto scene = readIn(
-      "<CollisionPipeline/><MechanicalObject position='0 0 0'/><SphereModel name='s' radius='2' "
+      "<CollisionPipeline/><BruteForceDetection/><MechanicalObject position='0 0 0'/><SphereModel name='s' radius='2' "
       "listRadius='@loader.listRadius'/>");
   EXPECT_THAT(onlyBox(scene), IsBox(Corners{-2, -2, -2, 2, 2, 2}));
   ASSERT_EQ(scene.warnings.size(), 1U);

@@ -86,6 +86,84 @@ TEST_F(Pipelines, ThatLackAPartAreWarnedOf) {
   EXPECT_EQ(scene.warnings[0].subject, "/p");
 }
 
+std::vector<std::string> reasonsOf(const SceneDescription& scene) {
+  std::vector<std::string> reasons;
+  for (const Remark& warning : scene.warnings) reasons.push_back(warning.reason);
+  return reasons;
+}
+
+TEST_F(Pipelines, OfANodeLackWhatIsNotInItOrBelow) {
+  const std::vector<std::pair<std::string, std::string>> parts{
+      {"a broad phase", "<BruteForceBroadPhase/>"},
+      {"an intersection method", "<MinProximityIntersection/>"},
+      {"a narrow phase", "<BVHNarrowPhase/>"},
+      {"a contact manager", "<Node><CollisionResponse/></Node>"},
+  };
+  const auto without = [&](std::size_t part) {
+    std::string text = "<CollisionPipeline/>" + sphere("A");
+    for (std::size_t i = 0; i < parts.size(); ++i)
+      if (i != part) text += parts[i].second;
+    return text;
+  };
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    m_sofa = SofaVersion::Sofa2612;
+    EXPECT_THAT(reasonsOf(readIn(without(i))), ElementsAre(HasSubstr("the pipeline lacks " + parts[i].first)));
+    const auto above = readIn(parts[i].second + "<Node name='N'>" + without(i) + "</Node>");
+    EXPECT_THAT(reasonsOf(above), ElementsAre(HasSubstr("the pipeline lacks " + parts[i].first))) << "it is above";
+    m_sofa = SofaVersion::Sofa2006;
+    EXPECT_EQ(readIn(without(i)).warnings.size(), i == 0 ? 1U : 0U) << "older SOFA goes without " << parts[i].first;
+  }
+  m_sofa = SofaVersion::Sofa2612;
+  EXPECT_THAT(readIn(without(parts.size())).warnings, IsEmpty());
+  EXPECT_THAT(readIn("<CollisionPipeline/>").warnings, IsEmpty()) << "nothing to detect";
+  for (const char* both : {"BruteForceDetection", "DirectSAP", "RayTraceDetection", "BulletCollisionDetection"})
+    EXPECT_THAT(
+        readIn("<CollisionPipeline/><CollisionResponse/><LocalMinDistance/><" + std::string(both) + "/>" + sphere("A"))
+            .warnings,
+        IsEmpty())
+        << both;
+}
+
+TEST_F(Pipelines, NewerSofaLosesTheBoxOfOldDetections) {
+  const auto regionOf = [&](const std::string& type, SofaVersion sofa) {
+    m_sofa = sofa;
+    const auto scene = readIn("<CollisionPipeline/><CollisionResponse/><LocalMinDistance/><BVHNarrowPhase/><" + type +
+                              " box='0 0 0 1 1 1'/>" + sphere("A"));
+    const bool isSaid = !scene.warnings.empty() && scene.warnings[0].reason.starts_with("its box is not read");
+    EXPECT_NE(scene.pipelines[0].region.has_value(), isSaid) << type;
+    return scene.pipelines[0].region.has_value();
+  };
+  for (const char* type : {"BruteForceDetection", "DirectSAP"}) {
+    EXPECT_TRUE(regionOf(type, SofaVersion::Sofa2006)) << type;
+    EXPECT_FALSE(regionOf(type, SofaVersion::Sofa2612)) << type;
+  }
+  EXPECT_TRUE(regionOf("BruteForceBroadPhase", SofaVersion::Sofa2612));
+  EXPECT_FALSE(regionOf("RayTraceDetection", SofaVersion::Sofa2006));
+}
+
+TEST_F(Pipelines, SweepAndPruneHasRulesOfItsOwnAndThatIsSaid) {
+  const auto scene = readIn("<CollisionPipeline/><IncrSAP box='0 0 0 1 1 1'/>" + sphere("A"));
+  EXPECT_THAT(reasonsOf(scene), ElementsAre(HasSubstr("without groups across nodes")));
+  EXPECT_TRUE(scene.pipelines[0].region);
+}
+
+TEST_F(Pipelines, NamesThatSofaDoesNotHaveAreSaidOnce) {
+  const auto reasonsFor = [&](const std::string& text, SofaVersion sofa = SofaVersion::Sofa2612) {
+    m_sofa = sofa;
+    return reasonsOf(readIn("<BruteForceDetection/><CollisionResponse/><LocalMinDistance/>" + text));
+  };
+  const std::string old = "<DefaultPipeline/><Node><MechanicalObject/><PointModel/><PointModel/></Node>";
+  EXPECT_THAT(reasonsFor(old), ElementsAre(HasSubstr("no component of the name 'DefaultPipeline' any more"),
+                                           HasSubstr("no component of the name 'PointModel' any more")));
+  EXPECT_THAT(reasonsFor(old, SofaVersion::Sofa2006), IsEmpty());
+  const auto slip = [&](const std::string& name) { return reasonsFor("<CollisionPipeline/><" + name + "/>"); };
+  EXPECT_THAT(slip("SphereCollisionModle"), ElementsAre(HasSubstr("is SphereCollisionModel meant?")));
+  EXPECT_THAT(slip("Include"), ElementsAre(HasSubstr("is include meant?")));
+  EXPECT_THAT(slip("node"), ElementsAre(HasSubstr("is Node meant?")));
+  for (const char* other : {"CollisionNode", "OglModel", "SubsetTopologicalMapping", "BVHNarrowPhase", "VisualStyle"})
+    EXPECT_THAT(slip(other), IsEmpty()) << other;
+}
+
 TEST_F(Pipelines, ThatLinkToNothingAreRefused) {
   EXPECT_THAT(complaintIn("<SubCollisionPipeline name='p' collisionModels='@A/s'/>"
                           "<CompositeCollisionPipeline subCollisionPipelines='@p'/>"),

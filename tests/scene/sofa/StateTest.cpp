@@ -146,7 +146,7 @@ TEST_F(SofaState, NumbersThatRunTogetherAreTakenApart) {
 TEST_F(SofaState, RestPositionsOfRigidFramesAreFrames) {
   const auto scene = readIn(
       "<MechanicalObject template='Rigid3' position='0 0 0 0 0 0 1' rest_position='1 2 3 0 0 0 1'/>"
-      "<CollisionPipeline/>"
+      "<CollisionPipeline/><BruteForceDetection/>"
       "<Node><MechanicalObject name='m' position='@../mObject1.rest_position'/><PointModel/></Node>");
   EXPECT_THAT(onlyBox(scene), IsBox(Corners{1, 2, 3, 1, 2, 3}));
   EXPECT_THAT(scene.warnings, testing::IsEmpty());

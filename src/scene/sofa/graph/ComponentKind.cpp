@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "sofa/graph/ComponentKind.h"
 
+#include <algorithm>
 #include <cctype>
+#include <numeric>
 #include <unordered_map>
+#include <utility>
+#include <vector>
 
 namespace allpairs::scene::sofa {
 namespace {
@@ -51,7 +55,12 @@ void addPipeline(Table& table) {
        {"BruteForceDetection", "BruteForceBroadPhase", "ParallelBruteForceBroadPhase", "AllpairsBroadPhase",
         "BruteForce", "DirectSAP", "IncrSAP", "IncrementalSAP", "RayTraceDetection"})
     table[name] = {BroadPhase, name};
-  for (const auto name : {"DirectSAPNarrowPhase", "RayTraceNarrowPhase"}) table[name] = {Other, name};
+  table["BulletCollisionDetection"] = {BroadPhase, {}};
+  for (const auto name : {"DirectSAPNarrowPhase", "RayTraceNarrowPhase"}) table[name] = {NarrowPhase, name};
+  for (const auto name : {"BVHNarrowPhase", "ParallelBVHNarrowPhase"}) table[name] = {NarrowPhase, {}};
+  for (const auto name :
+       {"CollisionResponse", "DefaultContactManager", "RuleBasedContactManager", "RuleBasedCollisionResponse"})
+    table[name] = {ContactManager, {}};
   for (const auto name : {"DiscreteIntersection", "BulletIntersection"}) table[name] = {DiscreteMethod, name};
   for (const auto name : {"MinProximityIntersection", "NewProximityIntersection", "LocalMinDistance",
                           "CCDTightInclusionIntersection", "CudaProximityIntersection"})
@@ -148,7 +157,44 @@ bool isPluginModel(std::string_view type) {
          has("OBB") || has("ConvexHull");
 }
 
+/// The number of letters to replace, leave out, put in or swap with their neighbors.
+std::size_t editsBetween(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> before;
+  std::vector<std::size_t> last;
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    before = std::exchange(last, row);
+    row[0] = i;
+    for (std::size_t k = 1; k <= b.size(); ++k) {
+      const bool isSame = a[i - 1] == b[k - 1];
+      row[k] = std::min({last[k] + 1, row[k - 1] + 1, last[k - 1] + (isSame ? 0 : 1)});
+      const bool areSwapped = i > 1 && k > 1 && a[i - 1] == b[k - 2] && a[i - 2] == b[k - 1];
+      if (areSwapped) row[k] = std::min(row[k], before[k - 2] + 1);
+    }
+  }
+  return row[b.size()];
+}
+
 }  // namespace
+
+std::string_view similarClass(std::string_view type) {
+  // No two classes of SOFA with names so long are so near to each other.
+  constexpr std::size_t kLeastLength = 10;
+  constexpr std::size_t kMostEdits = 2;
+  if (knownClasses().contains(type)) return {};
+  std::string_view nearest;
+  std::size_t edits = kMostEdits + 1;
+  for (const auto& [name, what] : knownClasses()) {
+    if (name.size() < kLeastLength || type.size() > name.size() + kMostEdits || name.size() > type.size() + kMostEdits)
+      continue;
+    const std::size_t found = editsBetween(type, name);
+    if (found > edits || (found == edits && name > nearest)) continue;
+    edits = found;
+    nearest = name;
+  }
+  return edits <= kMostEdits ? nearest : std::string_view{};
+}
 
 ComponentClass classOf(std::string_view type) {
   const auto& classes = knownClasses();

@@ -13,6 +13,8 @@ enum class ComponentKind {
   CompositePipeline,
   SubPipeline,
   BroadPhase,
+  NarrowPhase,
+  ContactManager,
   DiscreteMethod,
   ProximityMethod,
   OtherMethod,
@@ -86,6 +88,10 @@ struct ComponentClass {
 
 /// The class behind a name in a scene, of either generation of SOFA, alias or not.
 [[nodiscard]] ComponentClass classOf(std::string_view type);
+
+/// The name of a class that is so near to a name which this reader does not know that it is likely to be meant; empty
+/// for none.
+[[nodiscard]] std::string_view similarClass(std::string_view type);
 
 /// The stem of the names that SOFA gives to components without a name; empty for classes that it would not know.
 [[nodiscard]] std::string defaultNameStem(std::string_view type);

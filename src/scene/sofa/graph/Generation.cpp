@@ -21,6 +21,18 @@ bool isNew(const Component& component) {
   return component.attributes.value("pluginName", component.name).starts_with("Sofa.");
 }
 
+/// Names that SOFA 24.12 and 26.06 dropped (its Sofa.Helper, ComponentChange.cpp); those of collision models have a
+/// rule.
+bool isDropped(const Component& component) {
+  static constexpr std::array<std::string_view, 10> kDropped{
+      "DefaultPipeline", "DefaultContactManager",  "RuleBasedCollisionResponse", "MeshObjLoader", "Mesh", "RegularGrid",
+      "SparseGrid",      "SparseGridRamification", "SparseGridMultiple",         "IncrementalSAP"};
+  if (std::ranges::find(kDropped, component.type) != kDropped.end()) return true;
+  if (component.type == "CylinderGrid" || component.type == "SphereGrid") return true;
+  return isModel(component) && !component.what.name.empty() && !component.type.ends_with("CollisionModel") &&
+         component.type.find("Bullet") == std::string::npos && !component.type.starts_with("Cuda");
+}
+
 bool anyIsNew(const Node& node) {
   return std::ranges::any_of(node.components, [](const auto& component) { return isNew(*component); }) ||
          std::ranges::any_of(node.children, [](const auto& child) { return anyIsNew(*child); });
@@ -43,6 +55,18 @@ std::string newClassName(const Component& component) {
   const std::string_view name = component.what.name.empty() ? component.type : component.what.name;
   const auto renamed = kRenamed.find(name);
   return std::string{renamed == kRenamed.end() ? name : renamed->second};
+}
+
+std::string doubtAboutName(const Component& component, Generation generation) {
+  if (generation == Generation::Sofa26 && isDropped(component))
+    return "SOFA 26.12 has no component of the name '" + component.type + "' any more; it is read as before here";
+  if (component.kind() != ComponentKind::Other) return {};
+  if (component.type == "node" || component.type == "Include" || component.type == "NODE")
+    return "SOFA has no component '" + component.type + "', and what is in it is left out; is " +
+           (component.type == "Include" ? "include" : "Node") + " meant?";
+  const auto similar = similarClass(component.type);
+  if (similar.empty()) return {};
+  return "SOFA has no component '" + component.type + "', and it is left out; is " + std::string{similar} + " meant?";
 }
 
 void nameByClass(Node& node) {

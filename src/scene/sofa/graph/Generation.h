@@ -21,4 +21,8 @@ void nameByClass(Node& node);
 /// The class behind a name in a scene, as newer SOFA calls it: "TriangleCollisionModel" for "Triangle".
 [[nodiscard]] std::string newClassName(const Component& component);
 
+/// Why the name of a component is not what a SOFA of the generation makes of it: the name is one that newer SOFA does
+/// not have any more, or a slip. Empty for nothing.
+[[nodiscard]] std::string doubtAboutName(const Component& component, Generation generation);
+
 }  // namespace allpairs::scene::sofa

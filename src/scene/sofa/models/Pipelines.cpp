@@ -22,6 +22,15 @@ const Component* firstBelow(const Node& node, const Wanted& wanted) {
 }
 
 bool isBroadPhase(const Component& component) { return component.kind() == BroadPhase; }
+bool isContactManager(const Component& component) { return component.kind() == ContactManager; }
+
+/// Also one that is a broad phase too, or makes both, such as BruteForceDetection, and those of plugins.
+bool isNarrowPhase(const Component& component) {
+  if (component.kind() == BroadPhase) return !component.type.ends_with("BroadPhase");
+  return component.kind() == NarrowPhase || component.type.ends_with("NarrowPhase") ||
+         component.type.ends_with("Detection");
+}
+
 bool isSubPipeline(const Component& component) { return component.kind() == SubPipeline; }
 
 void addModelsBelow(const Node& node, std::vector<const Component*>& models) {
@@ -31,13 +40,25 @@ void addModelsBelow(const Node& node, std::vector<const Component*>& models) {
   for (const auto& child : node.children) addModelsBelow(*child, models);
 }
 
+/// What a pipeline needs to detect anything, and does not find in its node and below. Older SOFA goes without.
+std::string missingBelow(const Node& node, const PipelineParts& pipeline, Generation generation) {
+  if (pipeline.component == nullptr || pipeline.models.empty()) return {};
+  if (pipeline.broadPhase == nullptr) return "a broad phase";
+  if (generation == Generation::Sofa20) return {};
+  if (pipeline.method == nullptr) return "an intersection method";
+  if (firstBelow(node, isNarrowPhase) == nullptr) return "a narrow phase";
+  return firstBelow(node, isContactManager) == nullptr ? "a contact manager" : std::string{};
+}
+
 /// A pipeline of everything in a node and below.
-PipelineParts pipelineOver(const Node& node, const Component* component) {
-  return {.component = component,
-          .models = modelsBelow(node),
-          .method = firstBelow(node, isMethod),
-          .broadPhase = firstBelow(node, isBroadPhase),
-          .missing = {}};
+PipelineParts pipelineOver(const Node& node, const Component* component, Generation generation) {
+  PipelineParts pipeline{.component = component,
+                         .models = modelsBelow(node),
+                         .method = firstBelow(node, isMethod),
+                         .broadPhase = firstBelow(node, isBroadPhase),
+                         .missing = {}};
+  pipeline.missing = missingBelow(node, pipeline, generation);
+  return pipeline;
 }
 
 /// The components that a link of a pipeline names, each once.
@@ -93,16 +114,16 @@ const Component* pipelineOf(const Node& node) {
   return last == node.components.rend() ? nullptr : last->get();
 }
 
-void addPipelinesBelow(const Node& node, std::vector<PipelineParts>& pipelines) {
+void addPipelinesBelow(const Node& node, Generation generation, std::vector<PipelineParts>& pipelines) {
   if (!node.active) return;
   if (const auto* component = pipelineOf(node)) {
     if (component->kind() == CompositePipeline)
       for (const auto* sub : linked(*component, "subCollisionPipelines", isSubPipeline))
         pipelines.push_back(subPipeline(*sub));
     else
-      pipelines.push_back(pipelineOver(node, component));
+      pipelines.push_back(pipelineOver(node, component, generation));
   }
-  for (const auto& child : node.children) addPipelinesBelow(*child, pipelines);
+  for (const auto& child : node.children) addPipelinesBelow(*child, generation, pipelines);
 }
 
 }  // namespace
@@ -113,10 +134,10 @@ std::vector<const Component*> modelsBelow(const Node& node) {
   return models;
 }
 
-std::vector<PipelineParts> findPipelines(const Node& root) {
+std::vector<PipelineParts> findPipelines(const Node& root, Generation generation) {
   std::vector<PipelineParts> pipelines;
-  addPipelinesBelow(root, pipelines);
-  if (pipelines.empty()) pipelines.push_back(pipelineOver(root, nullptr));
+  addPipelinesBelow(root, generation, pipelines);
+  if (pipelines.empty()) pipelines.push_back(pipelineOver(root, nullptr, generation));
   return pipelines;
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "sofa/graph/Generation.h"
 #include "sofa/graph/SceneGraph.h"
 
 namespace allpairs::scene::sofa {
@@ -20,7 +21,7 @@ struct PipelineParts {
 /// The pipelines that SOFA runs, in its order; where there are none, one with all models of the scene.
 ///
 /// Bad input: throws Unplaceable for a link of a pipeline that leads nowhere.
-[[nodiscard]] std::vector<PipelineParts> findPipelines(const Node& root);
+[[nodiscard]] std::vector<PipelineParts> findPipelines(const Node& root, Generation generation);
 
 /// All models of a scene in the order of traversal; those in inactive nodes do not count.
 [[nodiscard]] std::vector<const Component*> modelsBelow(const Node& node);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "allpairs/scene/FileError.h"
 #include "sofa/evaluation/Evaluation.h"
@@ -45,8 +46,18 @@ MethodDescription describeMethod(Evaluation& evaluation, const Component* method
   return result;
 }
 
+/// Newer SOFA makes a broad phase in the place of an old detection, and gives it nothing of what was written there.
+bool hasRegion(const Component& broadPhase, Generation generation) {
+  if (generation == Generation::Sofa20) return broadPhase.type != "RayTraceDetection";
+  return broadPhase.type.ends_with("BroadPhase") || broadPhase.type == "IncrSAP" || broadPhase.type == "IncrementalSAP";
+}
+
 std::optional<Box> describeRegion(Evaluation& evaluation, const Component* broadPhase) {
   if (broadPhase == nullptr || !broadPhase->attributes.has("box")) return std::nullopt;
+  if (!hasRegion(*broadPhase, evaluation.generation())) {
+    evaluation.warn(*broadPhase, "its box is not read, as in SOFA, where this component has none");
+    return std::nullopt;
+  }
   const auto corners = evaluation.points(*broadPhase, {"box"});
   if (corners.empty()) return std::nullopt;
   if (corners.size() != 2) throw Unplaceable(*broadPhase, "a box has two corners");
@@ -143,9 +154,23 @@ PipelineDescription describePipeline(Evaluation& evaluation, const PipelineParts
   if (parts.component != nullptr) pipeline.path = parts.component->path();
   pipeline.method = describeMethod(evaluation, parts.method);
   pipeline.region = describeRegion(evaluation, parts.broadPhase);
+  if (parts.broadPhase != nullptr && parts.broadPhase->type.starts_with("Incr"))
+    evaluation.warn(*parts.broadPhase,
+                    "SOFA compares the boxes of elements with this component, without contact distances and without "
+                    "groups across nodes; here the models' boxes are tested by the rules of BruteForceBroadPhase");
   for (const auto* component : parts.models)
     if (const auto index = models.indexOf(*component)) pipeline.models.push_back(*index);
   return pipeline;
+}
+
+/// Says of each class name once why it is doubtful.
+void warnOfNames(const Node& node, Generation generation, std::set<std::string>& seen, SceneDescription& scene) {
+  for (const auto& component : node.components) {
+    if (!seen.insert(component->type).second) continue;
+    if (auto doubt = doubtAboutName(*component, generation); !doubt.empty())
+      scene.warnings.push_back(remarkOn(*component, std::move(doubt)));
+  }
+  for (const auto& child : node.children) warnOfNames(*child, generation, seen, scene);
 }
 
 /// The axis against gravity: 1 to 3 for x to z, below 0 for the other way; y where there is none.
@@ -173,10 +198,12 @@ SceneDescription describeScene(const std::filesystem::path& path, const ReadOpti
   SceneDescription scene;
   scene.up = upOf(*root);
   ModelList models(evaluation, options.partial, scene);
-  for (const auto& parts : findPipelines(*root)) {
+  for (const auto& parts : findPipelines(*root, generation)) {
     scene.pipelines.push_back(describePipeline(evaluation, parts, models));
     warnOf(parts, *root, scene);
   }
+  std::set<std::string> seen;
+  warnOfNames(*root, generation, seen, scene);
   for (const auto& [component, text] : evaluation.warnings()) scene.warnings.push_back(remarkOn(*component, text));
   for (const auto* component : modelsBelow(*root))
     if (!models.has(*component))
