@@ -140,7 +140,7 @@ TEST(ObjMesh, ErrorsNameTheLine) {
 
 TEST(GltfMesh, EachNodeThatShowsAMeshIsABodyInItsPlace) {
   const scene::Scene scene = read("car.gltf", kGltf);
-  EXPECT_EQ(namesOf(scene), "wheel TTriangleModel 1\nwheel#2 TTriangleModel 1\ndisc TTriangleModel 1\n");
+  EXPECT_EQ(namesOf(scene), "wheel TTriangleModel 1\naxle/wheel TTriangleModel 1\ndisc TTriangleModel 1\n");
   EXPECT_EQ(boxOf(*scene.models[1]), (Box{{10, 0, 0}, {12, 2, 0}}));
 }
 

@@ -34,9 +34,11 @@ struct Owner {
 /// Where a model comes from.
 struct ModelSource {
   std::size_t file = 0;  ///< An index into Scene::files.
-  std::string name{};    ///< As the file has it; a file's name where it has none.
-  std::string kind{};    ///< What it is in the format's own words: "IfcColumn"; else empty.
-  std::string id{};      ///< What identifies it for good, an IFC's GlobalId; else empty.
+  /// As the file has it, behind the nodes that it is in as far as they tell it from others of its name: "bolt", "left
+  /// door/bolt"; a file's name where it has none. Numbered where that is not enough: "bolt#2".
+  std::string name{};
+  std::string kind{};   ///< What it is in the format's own words: "IfcColumn"; else empty.
+  std::string id{};     ///< What identifies it for good, an IFC's GlobalId; else empty.
   std::string given{};  ///< What append() or a reader of several files named the model last; empty: as the file has it.
   /// The body of its file that it is a part of besides its owner: an IFC's product, of which mapped items are parts;
   /// else empty.
@@ -44,6 +46,11 @@ struct ModelSource {
   /// The assembly that it is in: in IFC the outermost product, else what is below the node of the file where it first
   /// branches.
   std::string assembly{};
+  std::string assemblyId{};  ///< What identifies that for good, an IFC's GlobalId; else empty.
+  /// Where it is in its file: the names of all nodes that it is in, the outermost first, and its own, "car/left
+  /// door/bolt"; those of one name in the same node are numbered. Empty in files whose objects are not nested, or not
+  /// in nodes that have names.
+  std::string path{};
 };
 
 /// One of several collision pipelines of a scene: it tests its own models against one another, in its own way.

@@ -21,8 +21,9 @@ namespace allpairs::scene {
 struct ModelRecord {
   std::string name;
   std::string file{};  ///< What it was read from; empty where that is not known.
-  std::string kind{};  ///< As of ModelSource, and so is the next.
+  std::string kind{};  ///< As of ModelSource, and so are the next two.
   std::string id{};
+  std::string path{};
   std::string type;
   std::size_t elements = 0;
   Box box = kEmptyBox;  ///< Of the root; empty without elements.

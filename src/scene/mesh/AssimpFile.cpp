@@ -8,7 +8,6 @@
 #include <assimp/Importer.hpp>
 #include <cstring>
 #include <limits>
-#include <map>
 #include <memory>
 #include <new>
 #include <optional>
@@ -29,6 +28,7 @@
 #include "mesh/Faces.h"
 #include "mesh/IfcNames.h"
 #include "mesh/MeshObject.h"
+#include "mesh/PathNames.h"
 #include "mesh/Transform.h"
 
 namespace allpairs::scene {
@@ -54,8 +54,13 @@ std::span<T* const> spanOf(T* const* items, unsigned count) {
 
 /// Names that Assimp's readers make up where the file has none.
 bool isMadeUp(std::string_view name) {
-  static constexpr std::array<std::string_view, 2> kMadeUp{"ROOT", "<DummyRootNode>"};
+  static constexpr std::array<std::string_view, 3> kMadeUp{"ROOT", "RootNode", "<DummyRootNode>"};
   return name.empty() || std::find(kMadeUp.begin(), kMadeUp.end(), name) != kMadeUp.end();
+}
+
+/// Whether Assimp has made a node of a part of an FBX's transform: "arm_$AssimpFbx$_PreRotation".
+bool isStepOfTransform(const aiNode& node) {
+  return node.mNumMeshes == 0 && std::string_view(node.mName.C_Str()).find("_$AssimpFbx$_") != std::string_view::npos;
 }
 
 /// An IFC's product, by Assimp's name of its node.
@@ -94,25 +99,39 @@ class NodeReader {
 
   std::vector<MeshObject> read(MeshFrame& frame) {
     addNode(*m_scene.mRootNode, rootOfFile(m_scene, lowerExtension(m_path), frame), {}, 0);
-    m_isIfc ? nameParts() : nameAssemblies();
+    if (m_isIfc) {
+      nameProducts();
+    } else {
+      nameAssemblies();
+      nameByPath(m_objects, m_places, m_nodes, m_scope);
+    }
     return std::move(m_objects);
   }
 
  private:
-  /// What a node is below, itself included.
+  static constexpr std::size_t kNone = NestedNode::kNoParent;
+
+  /// What a node is below, itself included, by places in lists.
   struct Place {
-    std::optional<IfcProduct> product{};  ///< The nearest.
-    std::string body{};                   ///< Its name, told apart from others of that name.
-    std::string assembly{};               ///< The outermost's.
-    std::size_t node = NestedNode::kNoParent;
+    std::size_t product = kNone;   ///< The nearest.
+    std::size_t assembly = kNone;  ///< The outermost product that is no place.
+    std::size_t node = kNone;
+  };
+
+  /// Of an object of an IFC.
+  struct Origin {
+    std::size_t product = kNone;
+    std::size_t assembly = kNone;
+    bool isPart = false;  ///< Of the product, and not the product itself.
   };
 
   void addNode(const aiNode& node, const Transform& world, Place place, std::size_t depth) {
     if (depth > kMaxNodeDepth) throw FileError(m_path, "has nodes that are nested too deep");
     const bool isProduct = m_isIfc && enterProduct(node, place);
-    const std::string name = isMadeUp(node.mName.C_Str()) ? "" : node.mName.C_Str();
-    m_nodes.push_back({place.node, node.mNumMeshes != 0, name});
-    place.node = m_nodes.size() - 1;
+    if (!isStepOfTransform(node)) {
+      m_nodes.push_back({place.node, node.mNumMeshes != 0, isProduct ? m_products.back().name : nodeNameOf(node)});
+      place.node = m_nodes.size() - 1;
+    }
     if (node.mNumMeshes != 0) addObject(node, world, place, isProduct);
     for (const aiNode* child : spanOf(node.mChildren, node.mNumChildren)) {
       addNode(*child, multiply(world, transformOf(child->mTransformation)), place, depth + 1);
@@ -125,42 +144,60 @@ class NodeReader {
     if (!product) return false;
     const auto exact = m_ifcNames.find(product->id);
     if (exact != m_ifcNames.end() && !exact->second.empty()) product->name = exact->second;
-    place.body = m_bodyNames.unique(product->name);
-    if (place.assembly.empty() && !isSpatial(product->kind)) place.assembly = place.body;
-    place.product = std::move(product);
+    place.product = m_products.size();
+    if (place.assembly == kNone && !isSpatial(product->kind)) place.assembly = place.product;
+    m_inNodes.push_back({place.node, product->name});
+    m_products.push_back(std::move(*product));
     return true;
   }
 
   void addObject(const aiNode& node, const Transform& world, const Place& place, bool isProduct) {
     MeshObject& object = m_objects.emplace_back();
-    object.name = isProduct ? place.body : nameOf(node);
+    object.name = isProduct ? m_products.back().name : nameOf(node);
     m_places.push_back(place.node);
-    object.body = place.body;
-    object.assembly = place.assembly;
-    if (place.product) {
-      object.kind = place.product->kind;
-      object.id = place.product->id;
-      ++m_partsOf[object.body];
-      m_isPart.push_back(!isProduct);
-    }
+    m_origins.push_back({place.product, place.assembly, !isProduct});
     for (const unsigned index : std::span(node.mMeshes, node.mNumMeshes)) {
       addMesh(object, *m_scene.mMeshes[index], world);
     }
   }
 
-  /// Parts of an IFC's product, such as mapped items, are called by it: window/IfcMappedItem, or where one is all of
-  /// it, window.
-  void nameParts() {
-    std::size_t part = 0;
-    for (MeshObject& object : m_objects) {
-      if (object.id.empty() || !m_isPart[part++]) continue;
-      object.name = m_partsOf[object.body] == 1 ? object.body : object.body + '/' + object.name;
+  /// Products by their names and places. Their parts, such as mapped items, are called by them: window/IfcMappedItem,
+  /// or where one is all of it, window.
+  void nameProducts() {
+    std::vector<PathName> names = pathNames(m_nodes, m_inNodes, m_scope);
+    UniqueNames taken;
+    for (PathName& name : names) name.name = taken.unique(name.name);
+    std::vector<std::size_t> sizes(m_products.size());
+    for (const Origin& origin : m_origins) {
+      if (origin.product != kNone) ++sizes[origin.product];
+    }
+    for (std::size_t i = 0; i < m_objects.size(); ++i) {
+      const Origin& origin = m_origins[i];
+      if (origin.product == kNone) continue;
+      MeshObject& object = m_objects[i];
+      const PathName& name = names[origin.product];
+      const std::string part = origin.isPart && sizes[origin.product] > 1 ? '/' + object.name : "";
+      object.name = name.name + part;
+      if (!name.path.empty()) object.path = name.path + part;
+      object.body = name.name;
+      object.kind = m_products[origin.product].kind;
+      object.id = m_products[origin.product].id;
+      if (origin.assembly == kNone) continue;
+      object.assembly = names[origin.assembly].name;
+      object.assemblyId = m_products[origin.assembly].id;
     }
   }
 
   void nameAssemblies() {
     const std::vector<std::string> assemblies = assembliesOf(m_nodes);
     for (std::size_t i = 0; i < m_objects.size(); ++i) m_objects[i].assembly = assemblies[m_places[i]];
+  }
+
+  /// What a node is called as a place; in an IFC only products are places.
+  std::string nodeNameOf(const aiNode& node) const {
+    const std::string name = node.mName.C_Str();
+    const bool isOfReader = isMadeUp(name) || (name.starts_with('<') && name.ends_with('>'));  // <3DSRoot>
+    return m_isIfc || isOfReader ? std::string() : name;
   }
 
   /// The node's own name, else that of its mesh, of which Assimp numbers the parts.
@@ -208,9 +245,9 @@ class NodeReader {
   std::unordered_map<std::string, std::string> m_ifcNames;  ///< By GlobalId.
   std::vector<NestedNode> m_nodes;
   std::vector<std::size_t> m_places;  ///< Of each object its node's in that list.
-  UniqueNames m_bodyNames;
-  std::map<std::string, std::size_t> m_partsOf;  ///< How many objects a body has.
-  std::vector<bool> m_isPart;                    ///< Of each object of a product: whether it is not the product itself.
+  std::vector<IfcProduct> m_products;
+  std::vector<NestedItem> m_inNodes;  ///< Of each product the node that it is in.
+  std::vector<Origin> m_origins;      ///< Of each object.
   std::vector<MeshObject> m_objects;
   std::vector<std::uint32_t> m_corners;
 };
@@ -290,6 +327,8 @@ class ObjectTransfer {
     visit(object.id);
     visit(object.body);
     visit(object.assembly);
+    visit(object.assemblyId);
+    visit(object.path);
     visit(object.passedOver);
     visit(object.positions);
     visit(object.triangles);

@@ -15,12 +15,14 @@ using Point = std::array<double, 3>;
 
 /// One object of a mesh file, or one node that shows a mesh, where it lies in the world.
 struct MeshObject {
-  std::string name;    ///< As in the file; empty where it has none.
+  std::string name;    ///< As in the file, with nodes that it is in where that takes to tell it apart; may be empty.
   std::string kind{};  ///< "IfcColumn", where the format has classes of objects.
   std::string id{};    ///< What identifies it for good, where the format has such: an IFC's GlobalId.
   std::string
       body{};  ///< What it is a part of: objects of the same, which has this name alone in the file, are one body.
   std::string assembly{};    ///< Likewise what it and other bodies are parts of.
+  std::string assemblyId{};  ///< What identifies that for good.
+  std::string path{};        ///< Where it is among nested objects, as of ModelSource.
   std::string passedOver{};  ///< What of it is not read, as a remark says it; empty where all is.
   std::vector<Point> positions;
   std::vector<std::array<std::uint32_t, 3>> triangles;

@@ -59,7 +59,7 @@ std::vector<std::unique_ptr<collision::CollisionModel>> modelsOf(MeshObject& obj
 void addObject(Scene& scene, MeshObject object, UniqueNames& names, ReadScope& scope) {
   scope.take(ReadScope::kBytesPerModel +
              4 * object.name.size() +  // its owner, its model and the names in use have it too
-             3 * (object.body.size() + object.assembly.size()));  // of up to three models
+             3 * (object.body.size() + object.assembly.size() + object.path.size()));  // of up to three models
   scene.owners.push_back(std::make_unique<Owner>(Owner{object.name}));
   for (auto& model : modelsOf(object)) {
     model->setName(names.unique(object.name));
@@ -69,7 +69,9 @@ void addObject(Scene& scene, MeshObject object, UniqueNames& names, ReadScope& s
                              .kind = object.kind,
                              .id = object.id,
                              .body = object.body,
-                             .assembly = object.assembly});
+                             .assembly = object.assembly,
+                             .assemblyId = object.assemblyId,
+                             .path = object.path});
     scene.models.push_back(std::move(model));
   }
 }

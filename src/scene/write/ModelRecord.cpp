@@ -25,6 +25,7 @@ ModelRecord modelRecord(const Scene& scene, std::size_t model) {
   record.file = scene.files[source.file].string();
   record.kind = source.kind;
   record.id = source.id;
+  record.path = source.path;
   return record;
 }
 

@@ -26,6 +26,7 @@ std::string corner(const std::array<double, 3>& point) {
 void writeModel(const ModelRecord& model, TextBuffer& out) {
   out.format(R"({{"name": {}, )", quoted(model.name));
   if (!model.file.empty()) out.format(R"("file": {}, )", quoted(model.file));
+  if (!model.path.empty()) out.format(R"("path": {}, )", quoted(model.path));
   if (!model.kind.empty()) out.format(R"("ifcType": {}, "globalId": {}, )", quoted(model.kind), quoted(model.id));
   out.format(R"("type": {}, "elements": {}, )", quoted(model.type), model.elements);
   out.format(R"("box": [{}, {}], )", corner(model.box.min), corner(model.box.max));

@@ -12,6 +12,7 @@
 #include "mesh/Assemblies.h"
 #include "mesh/Faces.h"
 #include "mesh/MeshObject.h"
+#include "mesh/PathNames.h"
 #include "mesh/Transform.h"
 #include "mesh/gltf/GltfDocument.h"
 
@@ -90,6 +91,7 @@ class GltfNodeReader {
     }
     const std::vector<std::string> assemblies = assembliesOf(m_nodes);
     for (std::size_t i = 0; i < m_objects.size(); ++i) m_objects[i].assembly = assemblies[m_places[i]];
+    nameByPath(m_objects, m_places, m_nodes, m_document.scope());
     if (std::ranges::none_of(m_objects, &MeshObject::hasElements)) blameExtensions();
     return std::move(m_objects);
   }

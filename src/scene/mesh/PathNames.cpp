@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: MIT
+#include "mesh/PathNames.h"
+
+#include <algorithm>
+#include <map>
+#include <string_view>
+#include <utility>
+
+namespace allpairs::scene {
+namespace {
+
+constexpr std::size_t kNoNode = NestedNode::kNoParent;
+constexpr std::size_t kMostLevels = 64;  // more than any assembly has; a chain of nodes may be as long as its file
+
+constexpr std::size_t kBytesPerItem = sizeof(NestedItem) + sizeof(PathName) + 200;  // with the nodes of maps
+
+/// Numbers what has the same name in the same place: bolt, bolt#2.
+class Numbering {
+ public:
+  std::string labelOf(std::size_t place, std::string_view name) {
+    const std::size_t count = ++m_counts[{place, name}];
+    return count == 1 ? std::string(name) : std::string(name) + '#' + std::to_string(count);
+  }
+
+ private:
+  std::map<std::pair<std::size_t, std::string_view>, std::size_t> m_counts;
+};
+
+/// The nodes of a file that have names and items below them.
+class NamedNodes {
+ public:
+  NamedNodes(const std::vector<NestedNode>& nodes, const std::vector<NestedItem>& items)
+      : m_nearest(nodes.size()), m_parents(nodes.size(), kNoNode), m_labels(nodes.size()) {
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      m_parents[i] = nearest(nodes[i].parent);
+      m_nearest[i] = nodes[i].name.empty() ? m_parents[i] : i;
+    }
+    std::vector<bool> isUsed(nodes.size());
+    for (const NestedItem& item : items) {
+      for (std::size_t at = nearest(item.node); at != kNoNode && !isUsed[at]; at = m_parents[at]) isUsed[at] = true;
+    }
+    Numbering numbering;
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      if (isUsed[i]) m_labels[i] = numbering.labelOf(m_parents[i], nodes[i].name);
+    }
+  }
+
+  /// A node, or the first above it that has a name.
+  [[nodiscard]] std::size_t nearest(std::size_t node) const { return node == kNoNode ? kNoNode : m_nearest[node]; }
+  [[nodiscard]] std::size_t above(std::size_t node) const { return m_parents[node]; }
+
+  /// The name, with its number.
+  [[nodiscard]] const std::string& label(std::size_t node) const { return m_labels[node]; }
+
+ private:
+  std::vector<std::size_t> m_nearest;
+  std::vector<std::size_t> m_parents;
+  std::vector<std::string> m_labels;
+};
+
+/// Names items, and says where they are.
+class PathNaming {
+ public:
+  PathNaming(const std::vector<NestedNode>& nodes, const std::vector<NestedItem>& items, ReadScope& scope)
+      : m_nodes(nodes, items), m_items(items), m_scope(scope), m_levels(items.size()) {
+    m_scope.takeElements(items.size(), kBytesPerItem);
+    m_places.resize(items.size());
+    for (std::size_t i = 0; i < items.size(); ++i) m_places[i] = m_nodes.nearest(items[i].node);
+    m_next = m_places;
+    std::map<std::string_view, std::vector<std::size_t>> alike;
+    for (std::size_t i = 0; i < items.size(); ++i) alike[items[i].name].push_back(i);
+    for (auto& [name, group] : alike) tellApart(std::move(group));
+  }
+
+  std::vector<PathName> names() {
+    std::vector<PathName> names;
+    Numbering numbering;
+    for (std::size_t i = 0; i < m_items.size(); ++i) {
+      PathName& name = names.emplace_back();
+      name.name = join(i, m_levels[i], m_items[i].name);
+      const std::string label = numbering.labelOf(m_places[i], m_items[i].name);
+      if (m_places[i] != kNoNode) name.path = join(i, kMostLevels, label);
+    }
+    return names;
+  }
+
+ private:
+  /// Items of one name of which nothing, or the same nodes, have been looked at.
+  struct Group {
+    std::vector<std::size_t> items;
+    std::size_t levels = 0;  ///< How many nodes have been.
+  };
+
+  [[nodiscard]] bool areInOnePlace(const std::vector<std::size_t>& items) const {
+    return std::all_of(items.begin(), items.end(),
+                       [&](std::size_t item) { return m_places[item] == m_places[items.front()]; });
+  }
+
+  /// Finds how many nodes it takes.
+  void tellApart(std::vector<std::size_t> alike) {
+    std::vector<Group> groups;
+    groups.push_back({std::move(alike)});
+    while (!groups.empty()) {
+      const Group group = std::move(groups.back());
+      groups.pop_back();
+      for (const std::size_t item : group.items) m_levels[item] = group.levels;
+      if (group.levels == kMostLevels || areInOnePlace(group.items)) continue;
+      std::map<std::string_view, std::vector<std::size_t>> parts;
+      for (const std::size_t item : group.items) {
+        if (m_next[item] == kNoNode) continue;  // all is said
+        parts[m_nodes.label(m_next[item])].push_back(item);
+        m_next[item] = m_nodes.above(m_next[item]);
+      }
+      for (auto& [label, items] : parts) groups.push_back({std::move(items), group.levels + 1});
+    }
+  }
+
+  /// A name behind those of so many nodes.
+  std::string join(std::size_t item, std::size_t levels, std::string_view name) {
+    std::vector<std::size_t> nodes;
+    std::size_t size = name.size();
+    for (std::size_t at = m_places[item]; at != kNoNode && nodes.size() < levels; at = m_nodes.above(at)) {
+      nodes.push_back(at);
+      size += m_nodes.label(at).size() + 1;
+    }
+    m_scope.take(size);
+    std::string text;
+    std::for_each(nodes.rbegin(), nodes.rend(), [&](std::size_t node) { text += m_nodes.label(node) + '/'; });
+    text += name;
+    if (name.empty() && !text.empty()) text.pop_back();
+    return text;
+  }
+
+  NamedNodes m_nodes;
+  const std::vector<NestedItem>& m_items;
+  ReadScope& m_scope;
+  std::vector<std::size_t> m_places;  ///< Of each item the nearest node with a name that it is in.
+  std::vector<std::size_t> m_next;    ///< Of each item the node that is looked at next.
+  std::vector<std::size_t> m_levels;  ///< Of each item how many nodes its name has.
+};
+
+}  // namespace
+
+std::vector<PathName> pathNames(const std::vector<NestedNode>& nodes, const std::vector<NestedItem>& items,
+                                ReadScope& scope) {
+  return PathNaming(nodes, items, scope).names();
+}
+
+void nameByPath(std::vector<MeshObject>& objects, const std::vector<std::size_t>& places,
+                const std::vector<NestedNode>& nodes, ReadScope& scope) {
+  std::vector<NestedItem> items;
+  for (std::size_t i = 0; i < objects.size(); ++i) items.push_back({nodes[places[i]].parent, objects[i].name});
+  std::vector<PathName> names = pathNames(nodes, items, scope);
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    objects[i].name = std::move(names[i].name);
+    objects[i].path = std::move(names[i].path);
+  }
+}
+
+}  // namespace allpairs::scene
