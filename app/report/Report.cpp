@@ -212,7 +212,7 @@ std::size_t writeReport(const view::ViewScene& scene, const ReportSettings& sett
                         const std::optional<Earlier>& earlier) {
   std::vector<view::Clash> clashes = view::clashesOf(scene);
   std::optional<view::Since> since;
-  if (earlier) since = view::compareWith(earlier->rows, earlier->name, clashes);
+  if (earlier) since = view::compareWith(earlier->rows, earlier->name, scene, clashes);
   const auto pictured = std::span(clashes).first(std::min(clashes.size(), settings.pictures));
   const std::vector<std::string> pictures = drawPictures(scene, pictured);
   view::BcfOptions options;

@@ -110,12 +110,15 @@ class BodyMaker {
     const scene::ModelSource& source = m_scene.sources[model];
     std::string part = partOf(model);
     const bool isBody = part == source.body;
+    const bool hasPath = part.empty() && !source.path.empty();
     if (part.empty()) {
       const auto path = m_paths.find(m_scene.models[model]->getOwner());
       if (path == m_paths.end()) return;
       part = path->second->empty() ? "/" : *path->second;
     }
-    if (source.id.empty() || !isBody) body.identity = m_fileIdentities[source.file] + '\n' + part;
+    if (source.id.empty() || !isBody)
+      body.identity = m_fileIdentities[source.file] + '\n' + (hasPath ? source.path : part);
+    if (!isBody && !source.assemblyId.empty()) body.identity = source.assemblyId;
     const std::string& name = m_scene.models[model]->getName();
     const std::size_t place = name.rfind(source.name);
     if (place != std::string::npos) body.name = name.substr(0, place) + part;

@@ -85,8 +85,12 @@ void addSources(const scene::Scene& from, view::ViewScene& to) {
   const std::vector<std::string> files = fileIdentities(from);
   Identities identities;
   bool hasKinds = false;
+  to.fileNames = files;
   for (const scene::ModelSource& source : from.sources) {
-    to.identities.push_back(identities.unique(source.id.empty() ? files[source.file] + '\n' + source.name : source.id));
+    to.files.push_back(static_cast<std::uint32_t>(source.file));
+    to.paths.push_back(source.path.empty() ? source.name : source.path);
+    to.identities.push_back(
+        identities.unique(source.id.empty() ? files[source.file] + '\n' + to.paths.back() : source.id));
     to.kinds.push_back(source.kind);
     to.ids.push_back(source.id);
     hasKinds = hasKinds || !source.kind.empty();

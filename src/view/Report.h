@@ -38,7 +38,7 @@ struct Report {
 void writeReportPage(const Report& report, scene::ByteSink sink);
 
 /// Writes a line for each pair, those of a row with its number and GUID: number, names, overlap per axis, volume and
-/// GUID (RFC 4180).
+/// GUID (RFC 4180), and where models are of files, the file of each and where it is in there.
 ///
 /// Where models have a GlobalId, four columns more: the class and the GlobalId of each. With an earlier report one
 /// more, "since": new, persisting or resolved; those that are resolved come last and have no number.

@@ -40,16 +40,35 @@ std::string idCellsOf(const ViewScene& scene, std::uint32_t model) {
   return ',' + cellOf(scene.kinds[model]) + ',' + cellOf(scene.ids[model]);
 }
 
+std::string placeCellsOf(const ViewScene& scene, std::uint32_t model) {
+  if (scene.files.empty()) return {};
+  return ',' + cellOf(scene.fileNames[scene.files[model]]) + ',' + cellOf(scene.paths[model]);
+}
+
+std::string placeCellsOf(const ViewScene& scene, const EarlierClash& clash) {
+  if (scene.files.empty()) return {};
+  return fmt::format(",{},{},{},{}", cellOf(clash.places[0].file), cellOf(clash.places[0].path),
+                     cellOf(clash.places[1].file), cellOf(clash.places[1].path));
+}
+
 /// A pair of a row.
 void writeCsvLine(const ViewScene& scene, const Clash& row, const Clash& pair, scene::ByteSink sink) {
   const std::string since = row.since ? ',' + std::string(changeName(*row.since)) : "";
-  sink(fmt::format("{},{},{},{}{}{}{},{}\n", row.number, cellOf(scene.name(pair.first)),
+  sink(fmt::format("{},{},{},{}{}{}{},{}{}{}\n", row.number, cellOf(scene.name(pair.first)),
                    cellOf(scene.name(pair.second)), csvMeasuresOf(pair), idCellsOf(scene, pair.first),
-                   idCellsOf(scene, pair.second), since, row.guid));
+                   idCellsOf(scene, pair.second), since, row.guid, placeCellsOf(scene, pair.first),
+                   placeCellsOf(scene, pair.second)));
 }
 
 bool isAscii(const std::string& text) {
   return std::all_of(text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x80; });
+}
+
+/// Of all that the table may say of models.
+bool areAscii(const ViewScene& scene) {
+  return std::all_of(scene.names.begin(), scene.names.end(), isAscii) &&
+         std::all_of(scene.paths.begin(), scene.paths.end(), isAscii) &&
+         std::all_of(scene.fileNames.begin(), scene.fileNames.end(), isAscii);
 }
 
 }  // namespace
@@ -57,11 +76,12 @@ bool isAscii(const std::string& text) {
 void writeReportCsv(const Report& report, scene::ByteSink sink) {
   constexpr std::string_view kUtf8Mark = "\xEF\xBB\xBF";  // without it some spreadsheets take another character set
   const ViewScene& scene = report.scene;
-  if (!std::all_of(scene.names.begin(), scene.names.end(), isAscii)) sink(kUtf8Mark);
+  if (!areAscii(scene)) sink(kUtf8Mark);
   sink(scene.isExact ? "number,first,second,state,depth,distance,x,y,z,normal_x,normal_y,normal_z,contacts"
                      : "number,first,second,overlap_x,overlap_y,overlap_z,volume");
   if (!scene.ids.empty()) sink(",first_type,first_id,second_type,second_id");
-  sink(report.since == nullptr ? ",guid\n" : ",since,guid\n");
+  sink(report.since == nullptr ? ",guid" : ",since,guid");
+  sink(scene.files.empty() ? "\n" : ",first_file,first_path,second_file,second_path\n");
   for (const Clash& clash : report.clashes) {
     writeCsvLine(scene, clash, clash, sink);
     for (const Clash& pair : clash.inside) writeCsvLine(scene, clash, pair, sink);
@@ -69,8 +89,8 @@ void writeReportCsv(const Report& report, scene::ByteSink sink) {
   if (report.since == nullptr) return;
   const std::size_t left = (scene.isExact ? 10U : 4U) + (scene.ids.empty() ? 0U : 4U);
   for (const EarlierClash& clash : report.since->gone) {
-    sink(fmt::format(",{},{},{}resolved,{}\n", cellOf(clash.first), cellOf(clash.second), std::string(left, ','),
-                     clash.guid));
+    sink(fmt::format(",{},{},{}resolved,{}{}\n", cellOf(clash.first), cellOf(clash.second), std::string(left, ','),
+                     clash.guid, placeCellsOf(scene, clash)));
   }
 }
 

@@ -4,9 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <set>
+#include <string>
 #include <system_error>
 #include <unordered_map>
 #include <unordered_set>
@@ -107,6 +109,73 @@ std::string beforeOf(const EarlierClash& earlier, const Clash& clash) {
   return std::string(stateName(*earlier.state)) + (hasDepth ? ", " + shortNumber(*earlier.depth) + " deep" : "");
 }
 
+/// Two texts in one order, as one; empty where either is.
+std::string keyOf(std::string first, std::string second) {
+  if (first.empty() || second.empty()) return {};
+  if (second < first) std::swap(first, second);
+  return first + '\n' + second;
+}
+
+std::string textOf(const EarlierPlace& place) { return place.file.empty() ? "" : place.file + '\n' + place.path; }
+
+std::string textOf(const ViewScene& scene, std::uint32_t model) {
+  return scene.fileNames[scene.files[model]] + '\n' + scene.paths[model];
+}
+
+/// Finds the row that an earlier report had for each of now.
+class RowMatch {
+ public:
+  RowMatch(const std::vector<EarlierClash>& earlier, const ViewScene& scene, std::span<const Clash> clashes)
+      : m_earlier(earlier), m_clashes(clashes), m_found(clashes.size(), nullptr) {
+    matchBy([](const EarlierClash& clash) { return clash.guid; }, [](const Clash& clash) { return clash.guid; });
+    if (scene.files.empty()) return;
+    matchBy([](const EarlierClash& clash) { return keyOf(textOf(clash.places[0]), textOf(clash.places[1])); },
+            [&](const Clash& clash) { return keyOf(textOf(scene, clash.first), textOf(scene, clash.second)); });
+    matchBy([](const EarlierClash& clash) { return keyOf(clash.first, clash.second); },
+            [&](const Clash& clash) { return keyOf(scene.name(clash.first), scene.name(clash.second)); });
+  }
+
+  [[nodiscard]] const EarlierClash* of(std::size_t clash) const { return m_found[clash]; }
+  [[nodiscard]] bool isGone(const EarlierClash& clash) const { return !m_taken.contains(&clash); }
+
+ private:
+  /// The rows that have a key, of those that have no match yet.
+  struct Keyed {
+    std::size_t earlierRows = 0;
+    std::size_t rows = 0;
+    const EarlierClash* earlier = nullptr;
+    std::size_t row = 0;
+  };
+
+  template <class EarlierKey, class Key>
+  void matchBy(const EarlierKey& earlierKey, const Key& key) {
+    std::unordered_map<std::string, Keyed> keys;
+    for (const EarlierClash& clash : m_earlier) {
+      if (!isGone(clash)) continue;
+      Keyed& keyed = keys[earlierKey(clash)];
+      ++keyed.earlierRows;
+      keyed.earlier = &clash;
+    }
+    for (std::size_t i = 0; i < m_clashes.size(); ++i) {
+      if (m_found[i] != nullptr) continue;
+      Keyed& keyed = keys[key(m_clashes[i])];
+      ++keyed.rows;
+      keyed.row = i;
+    }
+    keys.erase("");
+    for (const auto& [text, keyed] : keys) {
+      if (keyed.earlierRows != 1 || keyed.rows != 1) continue;
+      m_found[keyed.row] = keyed.earlier;
+      m_taken.insert(keyed.earlier);
+    }
+  }
+
+  const std::vector<EarlierClash>& m_earlier;
+  std::span<const Clash> m_clashes;
+  std::vector<const EarlierClash*> m_found;
+  std::unordered_set<const EarlierClash*> m_taken;
+};
+
 }  // namespace
 
 bool isReportCsv(std::string_view text) { return !takeHead(text).empty(); }
@@ -120,6 +189,8 @@ std::vector<EarlierClash> readReportCsv(std::string_view text) {
   const std::size_t guid = columnOf("guid");
   const std::size_t state = columnOf("state");
   const std::size_t depth = columnOf("depth");
+  const std::array<std::array<std::size_t, 2>, 2> places{
+      {{columnOf("first_file"), columnOf("first_path")}, {columnOf("second_file"), columnOf("second_path")}}};
   std::vector<EarlierClash> rows;
   std::set<std::string> known;
   while (!text.empty()) {
@@ -132,28 +203,30 @@ std::vector<EarlierClash> readReportCsv(std::string_view text) {
     if (state < head.size()) row.state = stateNamed(fields[state]);
     if (depth < head.size()) row.depth = depthIn(fields[depth]);
     row.guid = std::move(fields[guid]);
+    for (std::size_t i = 0; i < row.places.size() && places[i][1] < head.size(); ++i)
+      row.places[i] = {nameOf(std::move(fields[places[i][0]])), nameOf(std::move(fields[places[i][1]]))};
     row.first = nameOf(std::move(fields[1]));
     row.second = nameOf(std::move(fields[2]));
   }
   return rows;
 }
 
-Since compareWith(const std::vector<EarlierClash>& earlier, std::string name, std::span<Clash> clashes) {
-  std::unordered_map<std::string_view, const EarlierClash*> before;
-  for (const EarlierClash& clash : earlier) before.emplace(clash.guid, &clash);
+Since compareWith(const std::vector<EarlierClash>& earlier, std::string name, const ViewScene& scene,
+                  std::span<Clash> clashes) {
+  const RowMatch match(earlier, scene, clashes);
   Since since{.name = std::move(name)};
-  std::unordered_set<std::string_view> now;
-  for (Clash& clash : clashes) {
-    const auto found = before.find(clash.guid);
-    clash.since = found == before.end() ? Change::New : changeOf(*found->second, clash);
-    if (found != before.end()) clash.before = beforeOf(*found->second, clash);
+  for (std::size_t i = 0; i < clashes.size(); ++i) {
+    Clash& clash = clashes[i];
+    const EarlierClash* const before = match.of(i);
+    clash.since = before == nullptr ? Change::New : changeOf(*before, clash);
+    if (before != nullptr) clash.before = beforeOf(*before, clash);
+    if (before != nullptr) clash.guid = before->guid;
     ++(*clash.since == Change::New          ? since.added
        : *clash.since == Change::Persisting ? since.persisting
                                             : since.resolved);
-    now.insert(clash.guid);
   }
   for (const EarlierClash& clash : earlier) {
-    if (!now.contains(clash.guid)) since.gone.push_back(clash);
+    if (match.isGone(clash)) since.gone.push_back(clash);
   }
   since.resolved += since.gone.size();
   return since;

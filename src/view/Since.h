@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 #include <string>
@@ -12,6 +13,12 @@
 
 namespace allpairs::view {
 
+/// Where a model of an earlier report was.
+struct EarlierPlace {
+  std::string file{};  ///< Empty where the report says nothing of it.
+  std::string path{};
+};
+
 /// A row of an earlier report.
 struct EarlierClash {
   std::string guid;
@@ -19,6 +26,7 @@ struct EarlierClash {
   std::string second;
   std::optional<ExactState> state{};  ///< Of its worst pair, where shapes were tested.
   std::optional<double> depth{};      ///< Of that pair.
+  std::array<EarlierPlace, 2> places{};
 };
 
 /// What has become of an earlier report's rows.
@@ -39,7 +47,11 @@ struct Since {
 [[nodiscard]] std::vector<EarlierClash> readReportCsv(std::string_view text);
 
 /// Compares rows with those of an earlier report, by their GUIDs and states, and notes in each what has become of it.
-[[nodiscard]] Since compareWith(const std::vector<EarlierClash>& earlier, std::string name, std::span<Clash> clashes);
+/// Rows whose GUIDs only one of the two has, such as of parts that are in another assembly now, are the same where
+/// both their models have the same places, or else the same names, and no other such row has; they keep the earlier
+/// GUID.
+[[nodiscard]] Since compareWith(const std::vector<EarlierClash>& earlier, std::string name, const ViewScene& scene,
+                                std::span<Clash> clashes);
 
 /// The word for it: new, persisting, resolved.
 [[nodiscard]] std::string_view changeName(Change change);

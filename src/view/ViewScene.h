@@ -83,8 +83,13 @@ struct ViewScene {
   std::vector<std::uint32_t> bodies{};
   std::vector<std::string> bodyNames{};
 
-  /// What a model, and a body, is known by in reports to come: an IFC's GlobalId, or its file's name and its own in
-  /// there. Empty where nothing but names and numbers is known.
+  /// Of each model the file that it was read from, as it is known in reports to come, and where it is in there: its
+  /// name, behind those of the nodes that it is in. Empty where models are of no file.
+  std::vector<std::string> fileNames{};
+  std::vector<std::uint32_t> files{};  ///< Of each model, an index into fileNames.
+  std::vector<std::string> paths{};
+
+  /// What a model, and a body, is known by in reports to come: an IFC's GlobalId, or these two. Empty where nothing but names and numbers is known.
   std::vector<std::string> identities{};
   std::vector<std::string> bodyIdentities{};
 

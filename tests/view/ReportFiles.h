@@ -64,6 +64,33 @@ inline std::vector<std::string> tableOf(const fs::path& report) {
   return lines;
 }
 
-std::string lastCell(const std::string& line) { return line.substr(line.rfind(',') + 1); }
+/// The cells of a line of a table in which nothing is quoted.
+inline Names cellsOf(const std::string& line) {
+  Names cells(1);
+  for (const char c : line) {
+    if (c == ',') {
+      cells.emplace_back();
+    } else {
+      cells.back() += c;
+    }
+  }
+  return cells;
+}
+
+/// The rows of a report's table, each by the names of its columns.
+inline std::vector<std::map<std::string, std::string>> rowsOf(const fs::path& report) {
+  std::string head = readBytes(report / "clashes.csv");
+  head = head.substr(0, head.find('\n'));
+  if (head.starts_with("\xEF\xBB\xBF")) head.erase(0, 3);
+  const Names columns = cellsOf(head);
+  std::vector<std::map<std::string, std::string>> rows;
+  for (const std::string& line : tableOf(report)) {
+    const Names cells = cellsOf(line);
+    EXPECT_EQ(cells.size(), columns.size()) << line;
+    auto& row = rows.emplace_back();
+    for (std::size_t i = 0; i < columns.size() && i < cells.size(); ++i) row[columns[i]] = cells[i];
+  }
+  return rows;
+}
 
 }  // namespace allpairs::test

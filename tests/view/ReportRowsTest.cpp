@@ -8,7 +8,6 @@
 #include <nlohmann/json.hpp>
 #include <pugixml.hpp>
 #include <set>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -117,10 +116,10 @@ TEST(ReportOfBodies, HasARowForAllPairsOfTheSameTwo) {
   EXPECT_EQ(filesOf(report("none") / "clashes.bcf").size(), 3 * pairs + 1);
   const fs::path out = report("body");
   const auto files = filesOf(out / "clashes.bcf");
-  const std::vector<std::string> lines = tableOf(out);
-  ASSERT_EQ(lines.size(), pairs) << "the table has every pair";
+  const auto rows = rowsOf(out);
+  ASSERT_EQ(rows.size(), pairs) << "the table has every pair";
   std::map<std::string, std::set<std::string>> guids;
-  for (const std::string& line : lines) guids[line.substr(0, line.find(','))].insert(lastCell(line));
+  for (const auto& row : rows) guids[row.at("number")].insert(row.at("guid"));
   EXPECT_EQ(files.size(), 3 * guids.size() + 1);
   std::size_t most = 0;
   for (const auto& [number, all] : guids) {
@@ -256,6 +255,55 @@ TEST(ReportOfIfc, MappedItemsArePartsOfTheirProductAndProductsOfTheirAssembly) {
             (std::set<std::string>{"column and wall", "mullion and wall", "mullion#2 and mullion", "mullion#2 and wall",
                                    "mullion/IfcMappedItem#2 and mullion/IfcMappedItem"}));
   EXPECT_EQ(titlesOf("assembly"), (std::set<std::string>{"column and wall", "front and wall", "front with itself"}));
+}
+
+/// An IFC with more in it, and behind others that building #16 holds.
+std::string withMore(std::string ifc, const std::string& lines, const std::string& before = "") {
+  if (!before.empty()) ifc.insert(ifc.find("(#27,#39") + 1, before);
+  return ifc.insert(ifc.find("ENDSEC;", ifc.find("DATA;")), lines);
+}
+
+TEST(ReportOfIfc, ProductsOfOneNameAreToldApartByTheirPlaces) {
+  const TempFolder folder;
+  const std::string input = folder.write("two.ifc", withMore(kIfc, R"(
+#70=IFCBUILDINGSTOREY('7AvctVUKr0kugbFTf53O9L',#5,'Upper',$,$,#15,$,$,.ELEMENT.,0.);
+#71=IFCRELAGGREGATES('8AvctVUKr0kugbFTf53O9L',#5,$,$,#16,(#70));
+#72=IFCCOLUMN('9AvctVUKr0kugbFTf53O9L',#5,'column',$,$,#15,#38,$);
+#73=IFCRELCONTAINEDINSPATIALSTRUCTURE('0cvctVUKr0kugbFTf53O9L',#5,$,$,(#72),#70);
+)"));
+  const auto result = nlohmann::json::parse(runProgram({"detect", input, "--format", "json"}).out);
+  std::map<std::string, Names> models;
+  for (const auto& model : result["models"]) models[model["globalId"]] = {model["name"], model["path"]};
+  EXPECT_EQ(models,
+            (std::map<std::string, Names>{{"1AvctVUKr0kugbFTf53O9L", {"wall", "Building/wall"}},
+                                          {"2AvctVUKr0kugbFTf53O9L", {"Building/column", "Building/column"}},
+                                          {"9AvctVUKr0kugbFTf53O9L", {"Upper/column", "Building/Upper/column"}}}));
+}
+
+TEST(ReportOfIfc, AssembliesAreKnownByTheirGlobalIds) {
+  const TempFolder folder;
+  const auto guidsOfRows = [&](const std::string& ifc) {
+    const std::string input = folder.write("parts.ifc", ifc);
+    expectSuccess(runProgram({"report", input, "--boxes", "--group", "assembly", "-o", folder.path() / "out"}));
+    std::map<std::string, std::set<std::string>> guids;  // by the GlobalIds of members
+    for (const auto& row : rowsOf(folder.path() / "out")) {
+      const auto& [first, second] = std::minmax(row.at("first_id"), row.at("second_id"));
+      guids[first + ' ' + second].insert(row.at("guid"));
+    }
+    return guids;
+  };
+  const auto before = guidsOfRows(ifcOfParts());
+  EXPECT_EQ(before.size(), 5U);
+  // Another front of two members, which comes first.
+  const auto after = guidsOfRows(withMore(ifcOfParts(), R"(
+#83=IFCMEMBER('3BvctVUKr0kugbFTf53O9L',#5,'mullion',$,$,#15,#62,$);
+#86=IFCMEMBER('4BvctVUKr0kugbFTf53O9L',#5,'mullion',$,$,#15,#65,$);
+#87=IFCCURTAINWALL('5BvctVUKr0kugbFTf53O9L',#5,'front',$,$,#15,$,$);
+#88=IFCRELAGGREGATES('6BvctVUKr0kugbFTf53O9L',#5,$,$,#87,(#83,#86));
+)",
+                                          "#87,"));
+  EXPECT_GT(after.size(), before.size());
+  for (const auto& [members, guids] : before) EXPECT_EQ(after.at(members), guids) << members;
 }
 
 /// A glTF of a camera and a machine, which holds a motor of two triangles and a gear of one; all overlap.

@@ -7,7 +7,6 @@
 #include <map>
 #include <pugixml.hpp>
 #include <regex>
-#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,14 +21,9 @@ namespace {
 /// GUIDs of a report by the names of their two models, in order.
 std::map<std::string, std::string> guidsByNames(const fs::path& report) {
   std::map<std::string, std::string> guids;
-  for (const std::string& line : tableOf(report)) {
-    std::istringstream text(line);
-    std::string number;
-    Names names(2);
-    std::getline(text, number, ',');
-    for (std::string& name : names) std::getline(text, name, ',');
-    std::sort(names.begin(), names.end());
-    guids[names[0] + ' ' + names[1]] = lastCell(line);
+  for (const auto& row : rowsOf(report)) {
+    const auto& [first, second] = std::minmax(row.at("first"), row.at("second"));
+    guids[first + ' ' + second] = row.at("guid");
   }
   return guids;
 }
@@ -67,12 +61,9 @@ TEST(ReportSince, MarksWhatIsNewPersistsAndIsResolved) {
   part("d", away);
   expectSuccess(runProgram({"report", parts, "--boxes", "-o", out, "--since", out}));
   std::map<std::string, std::string> states;
-  for (const std::string& line : tableOf(out)) {
-    Names cells;
-    std::istringstream text(line);
-    for (std::string cell; std::getline(text, cell, ',');) cells.push_back(cell);
-    ASSERT_EQ(cells.size(), 9U) << line;
-    states[cells[1] + ' ' + cells[2]] = cells[7] + ' ' + (cells[0].empty() ? "-" : cells[0]);
+  for (const auto& row : rowsOf(out)) {
+    const std::string& number = row.at("number");
+    states[row.at("first") + ' ' + row.at("second")] = row.at("since") + ' ' + (number.empty() ? "-" : number);
   }
   // Before: a with =b. Now: a with c, and d with =b.
   EXPECT_EQ(states,
@@ -143,12 +134,8 @@ TEST(ReportSince, ComparesWhatWasAClashAndHowDeepItWas) {
   expectSuccess(runProgram({"report", write(1.0, 10.75, 20.75), "--exact", "-o", out}));
   expectSuccess(runProgram({"report", write(0.5, 11.0, 20.5), "--exact", "-o", out, "--since", out}));
   std::map<std::string, std::string> changes;
-  for (const std::string& line : tableOf(out)) {
-    Names cells;
-    std::istringstream text(line);
-    for (std::string cell; std::getline(text, cell, ',');) cells.push_back(cell);
-    changes[cells[1] + ' ' + cells[2]] = cells[3] + ' ' + cells[cells.size() - 2];
-  }
+  for (const auto& row : rowsOf(out))
+    changes[row.at("first") + ' ' + row.at("second")] = row.at("state") + ' ' + row.at("since");
   EXPECT_EQ(changes, (std::map<std::string, std::string>{{"lid a", "clash new"},
                                                          {"d c", "touching resolved"},
                                                          {"f e", "clash persisting"},

@@ -414,7 +414,8 @@ TEST_F(ReportOfShapes, ListsTheWorstFirstAndOnlyCountsWhatIsApart) {
   const fs::path out = report();
   const std::string table = readBytes(out / "clashes.csv");
   EXPECT_TRUE(
-      table.starts_with("number,first,second,state,depth,distance,x,y,z,normal_x,normal_y,normal_z,contacts,guid\n"
+      table.starts_with("number,first,second,state,depth,distance,x,y,z,normal_x,normal_y,normal_z,contacts,guid,"
+                        "first_file,first_path,second_file,second_path\n"
                         "1,d-bar,c-bar,duplicate,,0,5.875,1.5,1.5,"))
       << table;
   EXPECT_NE(table.find("\n2,b-pin,a-block,contained,2,0,"), std::string::npos) << table;
@@ -429,7 +430,7 @@ TEST_F(ReportOfShapes, ListsTheWorstFirstAndOnlyCountsWhatIsApart) {
 
 TEST_F(ReportOfShapes, BoxesAloneAreThereAsBeforeWithTheirOption) {
   const std::string table = readBytes(report({"--boxes"}) / "clashes.csv");
-  EXPECT_TRUE(table.starts_with("number,first,second,overlap_x,overlap_y,overlap_z,volume,guid\n")) << table;
+  EXPECT_TRUE(table.starts_with("number,first,second,overlap_x,overlap_y,overlap_z,volume,guid,first_file,")) << table;
   EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 7) << table;
 }
 
