@@ -3,6 +3,9 @@
 
 from __future__ import annotations
 
+import os
+from typing import Any
+
 
 class Error(ValueError):
     """Base of all exceptions of this package about bad data, settings or files."""
@@ -37,14 +40,21 @@ class LimitExceeded(Error):
 class FileError(Error, OSError):
     """A file that is missing, unreadable or malformed.
 
-    ``path`` names it; ``line`` and ``column`` count from 1, and are 0 if unknown.
+    ``path`` names it, as ``filename`` does; ``line`` and ``column`` count from 1, and are 0 if unknown. ``errno`` and
+    ``strerror`` are what the system says, such as ``errno.ENOENT`` of a file that is not there; None if the content is what
+    is wrong.
     """
 
-    def __init__(self, message: str, path: str, line: int, column: int) -> None:
+    def __init__(self, message: str, path: str, line: int, column: int, errno: int | None = None) -> None:
         super().__init__(message)
-        self.path = path
+        self.path = self.filename = path
         self.line = line
         self.column = column
+        if errno is not None:
+            self.errno, self.strerror = errno, os.strerror(errno)
 
-    def __reduce__(self) -> tuple[type[FileError], tuple[str, str, int, int]]:
-        return type(self), (str(self), self.path, self.line, self.column)
+    def __str__(self) -> str:
+        return str(self.args[0])  # OSError's would be made of errno, strerror and filename
+
+    def __reduce__(self) -> tuple[type[FileError], tuple[Any, ...]]:
+        return type(self), (str(self), self.path, self.line, self.column, self.errno)

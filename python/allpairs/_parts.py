@@ -31,8 +31,9 @@ class Place(NamedTuple):
     is_file: bool = False
 
 
-def file_error(path: str, problem: object) -> FileError:
-    return FileError(f"{path}: {problem}", path, 0, 0)
+def file_error(path: str, problem: object, cause: Exception | None = None) -> FileError:
+    """An error of a file; of the system, if it is the cause."""
+    return FileError(f"{path}: {problem}", path, 0, 0, getattr(cause, "errno", None))
 
 
 def reason(problem: Exception) -> str:
@@ -98,7 +99,7 @@ def _read(path: str) -> Array:
         with _READING:
             array = np.load(path, mmap_mode="r", allow_pickle=False)
     except (OSError, ValueError, EOFError) as problem:
-        raise file_error(path, f"cannot be read as .npy: {reason(problem)}") from None
+        raise file_error(path, f"cannot be read as .npy: {reason(problem)}", problem) from None
     if not isinstance(array, np.ndarray):
         raise file_error(path, "cannot be read as .npy: it holds several arrays")
     end = getattr(array, "offset", 0) + array.nbytes

@@ -152,7 +152,7 @@ def _write(pairs: Array, path: str) -> int:
         with suppress(OSError):
             os.remove(beside)
         if isinstance(problem, OSError):
-            raise file_error(path, f"cannot be written: {reason(problem)}") from None
+            raise file_error(path, f"cannot be written: {reason(problem)}", problem) from None
         raise
     return len(pairs)
 
@@ -163,7 +163,7 @@ def _names_in(output: PathLike, count: int) -> list[str]:
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as problem:
-        raise file_error(str(folder), f"cannot be made: {reason(problem)}") from None
+        raise file_error(str(folder), f"cannot be made: {reason(problem)}", problem) from None
     names = [str(folder / f"part-{number:05d}.npy") for number in range(count)]
     others = sorted({str(path) for path in folder.glob("part-*.npy")} - set(names))
     if others:

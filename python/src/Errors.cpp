@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // C++ exceptions become those of allpairs._errors, which are plain Python.
 #include <exception>
+#include <system_error>
 
 #include "Bindings.h"
 #include "allpairs/Error.h"
@@ -18,6 +19,12 @@ void raise(const char* name, Arguments&&... arguments) {
   PyErr_SetObject(type.ptr(), error.ptr());
 }
 
+/// The errno of Python's OSError; None where the system has not said anything.
+py::object numberOf(const std::error_code& code) {
+  if (!code) return py::none();
+  return py::int_(code.default_error_condition().value());
+}
+
 void translate(std::exception_ptr pointer) {
   try {
     if (pointer) std::rethrow_exception(pointer);
@@ -26,7 +33,8 @@ void translate(std::exception_ptr pointer) {
   } catch (const LimitExceeded& error) {
     raise("LimitExceeded", textOf(error.what()), error.count());
   } catch (const FileError& error) {
-    raise("FileError", textOf(error.what()), pathOf(error.path()), error.line(), error.column());
+    raise("FileError", textOf(error.what()), pathOf(error.path()), error.line(), error.column(),
+          numberOf(error.code()));
   } catch (const InvalidArgument& error) {
     raise("InvalidArgument", textOf(error.what()));
   } catch (const Error& error) {

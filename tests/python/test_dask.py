@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Pairs that Dask's workers find are those of one search, in the same bytes."""
 
+import errno
 import os
 import signal
 import time
@@ -343,8 +344,9 @@ def test_files_that_are_no_arrays_are_named(tmp_path):
 def test_a_folder_that_cannot_be_written_is_named(tmp_path):
     boxes = dask.array.zeros((4, 6), chunks=(2, 6))
     (tmp_path / "file").write_text("")
-    with pytest.raises(allpairs.FileError, match="^/.*/file: cannot be made: File exists$"):
+    with pytest.raises(allpairs.FileError, match="^/.*/file: cannot be made: File exists$") as caught:
         allpairs.dask.overlaps(boxes, tmp_path / "file")
+    assert (caught.value.errno, caught.value.filename) == (errno.EEXIST, str(tmp_path / "file"))
     (tmp_path / "pairs" / "part-00001.npy").mkdir(parents=True)
     with pytest.raises(allpairs.FileError, match="^/.*/part-00001.npy: cannot be written: Is a directory$"):
         allpairs.dask.overlaps(boxes, tmp_path / "pairs")

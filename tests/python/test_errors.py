@@ -2,6 +2,8 @@
 """Bad input is a ValueError that names what is wrong."""
 
 import copy
+import errno
+import os
 import pickle
 
 import allpairs
@@ -226,9 +228,20 @@ def test_errors_survive_being_sent_to_another_process():
         allpairs.InvalidBox("box 3", 3),
         allpairs.LimitExceeded("many", 7),
         allpairs.FileError("a.scn:1: bad", "a.scn", 1, 0),
+        allpairs.FileError("a.scn: no such file", "a.scn", 0, 0, errno.ENOENT),
     ):
-        copy = pickle.loads(pickle.dumps(error))
-        assert (type(copy), str(copy), vars(copy)) == (type(error), str(error), vars(error))
+        twin = pickle.loads(pickle.dumps(error))
+        assert (type(twin), str(twin), vars(twin)) == (type(error), str(error), vars(error))
+        for name in ("errno", "strerror", "filename"):
+            assert getattr(twin, name, None) == getattr(error, name, None)
+
+
+def test_errors_of_files_say_what_other_errors_of_the_system_do():
+    error = allpairs.FileError("a.scn: is not there", "a.scn", 0, 0, errno.ENOENT)
+    assert (error.filename, error.errno, error.strerror) == ("a.scn", errno.ENOENT, os.strerror(errno.ENOENT))
+    assert (str(error), error.args) == ("a.scn: is not there", ("a.scn: is not there",))
+    error = allpairs.FileError("a.scn:1: bad", "a.scn", 1, 0)
+    assert (error.filename, error.errno, error.strerror, str(error)) == ("a.scn", None, None, "a.scn:1: bad")
 
 
 @pytest.mark.parametrize("protocol", range(pickle.HIGHEST_PROTOCOL + 1))

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Files: scenes, meshes, folders and box arrays."""
 
+import errno
 import json
 import os
 import pathlib
@@ -83,7 +84,32 @@ def test_a_folder_of_meshes_is_a_scene():
 def test_a_missing_file_is_named():
     with pytest.raises(allpairs.FileError) as caught:
         allpairs.load("no/such/thing.scn")
-    assert caught.value.path == "no/such/thing.scn"
+    assert caught.value.path == caught.value.filename == "no/such/thing.scn"
+    assert (caught.value.errno, caught.value.strerror) == (errno.ENOENT, os.strerror(errno.ENOENT))
+    assert str(caught.value) == "no/such/thing.scn: no such file or folder"
+
+
+def test_a_file_that_the_system_does_not_open_has_its_number(tmp_path):
+    (tmp_path / "loop.csv").symlink_to("loop.csv")
+    (tmp_path / "nowhere.csv").symlink_to("nothing.csv")
+    (tmp_path / "file").write_text("")
+    (tmp_path / "folder.npy").mkdir()
+    for name, number in (
+        ("loop.csv", errno.ELOOP),
+        ("nowhere.csv", errno.ENOENT),
+        ("file/boxes.csv", errno.ENOENT),
+        ("x" * 300 + ".csv", errno.ENAMETOOLONG),
+    ):
+        with pytest.raises(OSError) as caught:
+            allpairs.load(tmp_path / name)
+        assert (type(caught.value), caught.value.errno) == (allpairs.FileError, number), name
+    with pytest.raises(allpairs.FileError, match="is a folder") as caught:
+        allpairs.join(tmp_path / "folder.npy")
+    assert caught.value.errno == errno.EISDIR
+    (tmp_path / "bad.csv").write_text("1,2,3\n")
+    with pytest.raises(allpairs.FileError) as caught:
+        allpairs.load(tmp_path / "bad.csv")
+    assert (caught.value.errno, caught.value.filename) == (None, str(tmp_path / "bad.csv"))
 
 
 def test_a_malformed_scene_names_its_line(tmp_path):

@@ -134,6 +134,25 @@ TEST(Npy, AMissingFileAndAFolderAreNamed) {
   expectFileError([&] { (void)scene::readNpy(folder.path()); }, "is a folder");
 }
 
+TEST(Npy, WhatTheSystemSaysOfAFileIsACode) {
+  const auto codeOf = [](const std::filesystem::path& path) {
+    try {
+      (void)scene::readNpy(path);
+    } catch (const FileError& error) {
+      return error.code();
+    }
+    ADD_FAILURE() << "nothing was thrown";
+    return std::error_code();
+  };
+  const TempFolder folder;
+  std::filesystem::create_symlink("loop.npy", folder.path() / "loop.npy");
+  EXPECT_EQ(codeOf(folder.path() / "missing.npy"), std::errc::no_such_file_or_directory);
+  EXPECT_EQ(codeOf(folder.path()), std::errc::is_a_directory);
+  EXPECT_EQ(codeOf(folder.path() / "loop.npy"), std::errc::too_many_symbolic_link_levels);
+  EXPECT_EQ(codeOf(folder.path() / (std::string(300, 'x') + ".npy")), std::errc::filename_too_long);
+  EXPECT_EQ(codeOf(folder.write("bad.npy", "no array")), std::error_code()) << "its content is wrong";
+}
+
 TEST(BoxArray, ConcatenationKeepsTheOrderAndNamesTheFile) {
   const TempFolder folder;
   const TempFolder other;

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <string>
+#include <system_error>
 
 #include "allpairs/Error.h"
 
@@ -19,11 +20,19 @@ class FileError : public Error {
         m_line(line),
         m_column(column) {}
 
+  /// Of a file that the system does not open, read or write, for the reason `code`.
+  FileError(const std::filesystem::path& path, const std::string& problem, std::error_code code)
+      : FileError(path, problem) {
+    m_code = code;
+  }
+
   [[nodiscard]] const std::filesystem::path& path() const noexcept { return m_path; }
   /// The problem, without the position.
   [[nodiscard]] const std::string& problem() const noexcept { return m_problem; }
   [[nodiscard]] std::size_t line() const noexcept { return m_line; }
   [[nodiscard]] std::size_t column() const noexcept { return m_column; }
+  /// What the system says, such as std::errc::no_such_file_or_directory; none where the content is what is wrong.
+  [[nodiscard]] std::error_code code() const noexcept { return m_code; }
 
  private:
   static std::string describe(const std::filesystem::path& path, const std::string& problem, std::size_t line,
@@ -38,6 +47,7 @@ class FileError : public Error {
   std::string m_problem;
   std::size_t m_line;
   std::size_t m_column;
+  std::error_code m_code;
 };
 
 }  // namespace allpairs

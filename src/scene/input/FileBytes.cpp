@@ -16,7 +16,11 @@ namespace {
 /// Some ten milliseconds, of which most is memory that is touched for the first time.
 constexpr std::size_t kReadAtOnce = std::size_t{16} << 20;
 
-std::string lastProblem() { return std::generic_category().message(errno); }
+/// Fails for what the system has said last.
+[[noreturn]] void fail(const std::filesystem::path& path, const std::string& action) {
+  const std::error_code code(errno, std::generic_category());
+  throw FileError(path, "cannot be " + action + ": " + code.message(), code);
+}
 
 }  // namespace
 
@@ -25,14 +29,18 @@ void requireFile(const std::filesystem::path& path) {
   const std::filesystem::file_status status = std::filesystem::status(path, problem);
   if (status.type() == std::filesystem::file_type::not_found) {
     const bool isLink = std::filesystem::is_symlink(std::filesystem::symlink_status(path, problem));
-    throw FileError(path, isLink ? "is a link that leads nowhere" : "no such file or folder");
+    throw FileError(path, isLink ? "is a link that leads nowhere" : "no such file or folder",
+                    std::make_error_code(std::errc::no_such_file_or_directory));
   }
-  if (problem == std::errc::too_many_symbolic_link_levels) throw FileError(path, "is a link that leads nowhere");
-  if (problem) throw FileError(path, problem.message());
-  if (std::filesystem::is_directory(status)) throw FileError(path, "is a folder, not a file");
+  if (problem == std::errc::too_many_symbolic_link_levels)
+    throw FileError(path, "is a link that leads nowhere", problem);
+  if (problem) throw FileError(path, problem.message(), problem);
+  if (std::filesystem::is_directory(status)) {
+    throw FileError(path, "is a folder, not a file", std::make_error_code(std::errc::is_a_directory));
+  }
   if (!std::filesystem::is_regular_file(status)) throw FileError(path, "is not a regular file");  // a pipe would wait
   errno = 0;
-  if (!std::ifstream(path, std::ios::binary)) throw FileError(path, "cannot be opened: " + lastProblem());
+  if (!std::ifstream(path, std::ios::binary)) fail(path, "opened");
 }
 
 InputFile::InputFile(const std::filesystem::path& path, const StopFlag* stop) : m_path(path), m_stop(stop) {
@@ -62,7 +70,8 @@ void InputFile::readPiece(char* target, std::size_t count) {
   checkStop(m_stop);
   errno = 0;
   m_stream.read(target, static_cast<std::streamsize>(count));
-  if (!m_stream) throw FileError(m_path, errno == 0 ? "ends too early" : "cannot be read: " + lastProblem());
+  if (!m_stream && errno == 0) throw FileError(m_path, "ends too early");
+  if (!m_stream) fail(m_path, "read");
   m_remaining -= count;
 }
 

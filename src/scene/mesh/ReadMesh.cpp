@@ -80,7 +80,7 @@ std::vector<fs::path> sortedEntries(const fs::path& folder) {
   std::error_code error;
   std::vector<fs::path> entries;
   for (const std::string& name : folderNames(folder, error)) entries.push_back(folder / name);
-  if (error) throw FileError(folder, "cannot be listed: " + error.message());
+  if (error) throw FileError(folder, "cannot be listed: " + error.message(), error);
   std::sort(entries.begin(), entries.end());
   return entries;
 }

@@ -19,7 +19,9 @@ fs::path resolvedTarget(const fs::path& path) {
   }
   target = fs::weakly_canonical(target, problem);
   if (problem == std::errc::not_enough_memory) throw std::bad_alloc();  // it may be a link all the same
-  if (problem == std::errc::too_many_symbolic_link_levels) throw FileError(path, "is a link that leads nowhere");
+  if (problem == std::errc::too_many_symbolic_link_levels) {
+    throw FileError(path, "is a link that leads nowhere", problem);
+  }
   return target.empty() ? path : target;
 }
 
