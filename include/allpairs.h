@@ -387,6 +387,9 @@ ALLPAIRS_C_API allpairs_status allpairs_world_move_swept(allpairs_world* world, 
 
 ALLPAIRS_C_API allpairs_status allpairs_world_remove(allpairs_world* world, allpairs_ids ids);
 
+/// Removes all boxes; the next step lists their pairs among those that ended.
+ALLPAIRS_C_API allpairs_status allpairs_world_clear(allpairs_world* world);
+
 /// The number of a box that every world has, such as the ground.
 #define ALLPAIRS_EVERY_WORLD UINT32_MAX
 
@@ -416,8 +419,20 @@ ALLPAIRS_C_API allpairs_status allpairs_world_invalidate(allpairs_world* world, 
 ALLPAIRS_C_API size_t allpairs_world_size(const allpairs_world* world);
 ALLPAIRS_C_API bool allpairs_world_contains(const allpairs_world* world, uint32_t id);
 
+/// Writes the ids of all boxes, ascending: as many as allpairs_world_size() says.
+///
+/// Cost: that of a pass over all ids that there have been.
+ALLPAIRS_C_API allpairs_status allpairs_world_list_ids(const allpairs_world* world, uint32_t* ids);
+
 /// Writes the six bounds of a box.
 ALLPAIRS_C_API allpairs_status allpairs_world_box(const allpairs_world* world, uint32_t id, double* bounds);
+
+/// Writes the properties of a box, which allpairs_world_set_properties() takes.
+ALLPAIRS_C_API allpairs_status allpairs_world_properties(const allpairs_world* world, uint32_t id,
+                                                         allpairs_properties* properties);
+
+/// Writes the number of a box's world; 0 if it was given none.
+ALLPAIRS_C_API allpairs_status allpairs_world_number(const allpairs_world* world, uint32_t id, uint32_t* number);
 
 /// Finds the current pairs.
 ALLPAIRS_C_API allpairs_status allpairs_world_step(allpairs_world* world, allpairs_step* step);

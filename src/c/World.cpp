@@ -10,6 +10,10 @@ BoxProperties propertiesOf(const allpairs_properties& given) {
   return {given.category, given.mask, given.group, given.margin, given.is_static};
 }
 
+allpairs_properties toC(const BoxProperties& properties) {
+  return {properties.category, properties.mask, properties.group, properties.margin, properties.isStatic};
+}
+
 allpairs_step stepOf(const StepResult& found) {
   return {c::toC(found.pairs), c::toC(found.began), c::toC(found.persisted), c::toC(found.ended)};
 }
@@ -100,6 +104,10 @@ allpairs_status allpairs_world_remove(allpairs_world* world, allpairs_ids ids) {
   return guarded([&] { worldOf(world).remove(idsOf(ids)); });
 }
 
+allpairs_status allpairs_world_clear(allpairs_world* world) {
+  return guarded([&] { worldOf(world).clear(); });
+}
+
 allpairs_status allpairs_world_set_properties(allpairs_world* world, allpairs_ids ids,
                                               const allpairs_properties* properties) {
   return guarded([&] {
@@ -147,6 +155,31 @@ allpairs_status allpairs_world_box(const allpairs_world* world, uint32_t id, dou
       values[axis] = box.min[axis];
       values[axis + 3] = box.max[axis];
     }
+  });
+}
+
+allpairs_status allpairs_world_list_ids(const allpairs_world* world, uint32_t* ids) {
+  return guarded([&] {
+    const allpairs::World& boxes = required(world, "world").world;
+    const std::span<std::uint32_t> values = requiredSpan(ids, boxes.size(), "ids");
+    std::size_t next = 0;
+    for (allpairs::BoxId id = 0; next < values.size(); ++id) {
+      if (boxes.contains(id)) values[next++] = id;
+    }
+  });
+}
+
+allpairs_status allpairs_world_properties(const allpairs_world* world, uint32_t id, allpairs_properties* properties) {
+  return guarded([&] {
+    allpairs_properties& result = required(properties, "properties");
+    result = toC(required(world, "world").world.properties(id));
+  });
+}
+
+allpairs_status allpairs_world_number(const allpairs_world* world, uint32_t id, uint32_t* number) {
+  return guarded([&] {
+    std::uint32_t& result = required(number, "number");
+    result = required(world, "world").world.properties(id).world;
   });
 }
 

@@ -175,6 +175,7 @@ TEST(FailedAllocationInC, OfWorldsChanges) {
   check([&](Handles& h) { return allpairs_world_add(h.world, h.other, nullptr, added.data()); });
   check([&](Handles& h) { return allpairs_world_move_swept(h.world, {h.ids.data(), kBoxes}, h.set, h.other); });
   check([&](Handles& h) { return allpairs_world_set_properties(h.world, h.some(), properties.data()); });
+  check([&](Handles& h) { return allpairs_world_clear(h.world); });
   check([&](Handles& h) {
     const allpairs_status status = allpairs_world_move(h.world, {h.ids.data(), kBoxes}, h.set);
     return status == ALLPAIRS_OK ? allpairs_world_step(h.world, &step) : status;

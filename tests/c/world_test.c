@@ -102,6 +102,67 @@ static void propertiesAreRead(void) {
   allpairs_set_destroy(set);
 }
 
+static bool areEqual(const allpairs_properties* a, const allpairs_properties* b) {
+  return a->category == b->category && a->mask == b->mask && a->group == b->group && a->margin == b->margin &&
+         a->is_static == b->is_static;
+}
+
+/// A world says what it has been given: of boxes that all have something else.
+static void whatAWorldHoldsCanBeAsked(void) {
+  enum { kMany = 40 };
+  uint32_t numbers[kMany], given[kMany], listed[kMany] = {0}, number = 0;
+  allpairs_properties properties[kMany], got = allpairs_default_properties();
+  allpairs_world* world = NULL;
+  allpairs_set* set = setOf(rows, kMany);
+  allpairs_step step;
+  ALLPAIRS_CHECK(allpairs_world_create(NULL, &world) == ALLPAIRS_OK);
+  ALLPAIRS_CHECK(allpairs_world_list_ids(world, NULL) == ALLPAIRS_OK);  // of no boxes
+  for (uint32_t i = 0; i < kMany; ++i) {
+    numbers[i] = i % 7 == 0 ? ALLPAIRS_EVERY_WORLD : i % 3;
+    const allpairs_properties each = {i + 1, ~i, i % 5, i / 8.0 - 1, i % 2 == 1};
+    properties[i] = each;
+  }
+  const allpairs_membership membership = {NULL, numbers};
+  const allpairs_ids all = {given, kMany};
+  ALLPAIRS_CHECK(allpairs_world_add_to_worlds(world, set, &membership, given) == ALLPAIRS_OK);
+  ALLPAIRS_CHECK(allpairs_world_properties(world, 3, &got) == ALLPAIRS_OK);
+  const allpairs_properties defaults = allpairs_default_properties();
+  ALLPAIRS_CHECK(areEqual(&got, &defaults));
+  ALLPAIRS_CHECK(allpairs_world_set_properties(world, all, properties) == ALLPAIRS_OK);
+  for (uint32_t i = 0; i < kMany; ++i) {
+    ALLPAIRS_CHECK(allpairs_world_properties(world, given[i], &got) == ALLPAIRS_OK && areEqual(&got, &properties[i]));
+    ALLPAIRS_CHECK(allpairs_world_number(world, given[i], &number) == ALLPAIRS_OK && number == numbers[i]);
+  }
+  const uint32_t gone[3] = {0, 8, kMany - 1};
+  const allpairs_ids removed = {gone, 3};
+  ALLPAIRS_CHECK(allpairs_world_remove(world, removed) == ALLPAIRS_OK);
+  ALLPAIRS_CHECK(allpairs_world_list_ids(world, listed) == ALLPAIRS_OK && listed[kMany - 3] == 0);
+  for (uint32_t id = 0, next = 0; id < kMany; ++id) {
+    if (id != gone[0] && id != gone[1] && id != gone[2]) ALLPAIRS_CHECK(listed[next++] == id);
+  }
+
+  got.group = 77;
+  number = 77;
+  ALLPAIRS_CHECK(allpairs_world_properties(world, 8, &got) == ALLPAIRS_INVALID_BOX && got.group == 77);
+  ALLPAIRS_CHECK(strstr(allpairs_error_message(), "no box with the id 8") != NULL);
+  ALLPAIRS_CHECK(allpairs_world_number(world, ALLPAIRS_NO_BOX, &number) == ALLPAIRS_INVALID_BOX && number == 77);
+  ALLPAIRS_CHECK(allpairs_world_properties(world, 1, NULL) == ALLPAIRS_INVALID_ARGUMENT);
+  ALLPAIRS_CHECK(allpairs_world_properties(NULL, 1, &got) == ALLPAIRS_INVALID_ARGUMENT);
+  ALLPAIRS_CHECK(allpairs_world_number(world, 1, NULL) == ALLPAIRS_INVALID_ARGUMENT);
+  ALLPAIRS_CHECK(allpairs_world_list_ids(world, NULL) == ALLPAIRS_INVALID_ARGUMENT);
+  ALLPAIRS_CHECK(allpairs_world_list_ids(NULL, listed) == ALLPAIRS_INVALID_ARGUMENT);
+
+  ALLPAIRS_CHECK(allpairs_world_step(world, &step) == ALLPAIRS_OK);
+  const size_t before = step.pairs.count;
+  ALLPAIRS_CHECK(before > 0 && allpairs_world_clear(world) == ALLPAIRS_OK && allpairs_world_size(world) == 0);
+  ALLPAIRS_CHECK(allpairs_world_step(world, &step) == ALLPAIRS_OK && step.pairs.count == 0 &&
+                 step.ended.count == before);
+  ALLPAIRS_CHECK(allpairs_world_clear(world) == ALLPAIRS_OK && allpairs_world_list_ids(world, NULL) == ALLPAIRS_OK);
+  ALLPAIRS_CHECK(allpairs_world_clear(NULL) == ALLPAIRS_INVALID_ARGUMENT);
+  allpairs_world_destroy(world);
+  allpairs_set_destroy(set);
+}
+
 static void sweptBoxesHoldTheirWay(allpairs_world* world) {
   const double start[6] = {0, 0, 0, 1, 1, 1}, end[6] = {4, 0, 0, 5, 1, 1};
   allpairs_set *from = setOf(start, 1), *to = setOf(end, 1);
@@ -173,6 +234,8 @@ static bool callBack(void* context, uint32_t first, uint32_t second) {
   for (size_t i = 0; i < 2 && worlds[i] != NULL; ++i) {
     const allpairs_ray ray = {{0, 0, 0}, {1, 0, 0}, 1};
     const allpairs_nearest nearest = {{0, 0, 0}, 1};
+    allpairs_properties properties;
+    uint32_t listed[2];
     allpairs_step step;
     allpairs_ids found;
     allpairs_hit hit;
@@ -181,6 +244,9 @@ static bool callBack(void* context, uint32_t first, uint32_t second) {
     allpairs_pairs pairs;
     ALLPAIRS_CHECK(allpairs_world_contains(worlds[i], 0) && allpairs_world_size(worlds[i]) == 2);
     ALLPAIRS_CHECK(allpairs_world_box(worlds[i], 0, box) == ALLPAIRS_OK);
+    ALLPAIRS_CHECK(allpairs_world_list_ids(worlds[i], listed) == ALLPAIRS_OK && listed[1] == 1);
+    ALLPAIRS_CHECK(allpairs_world_properties(worlds[i], 1, &properties) == ALLPAIRS_OK && properties.group == 0);
+    ALLPAIRS_CHECK(allpairs_world_clear(worlds[i]) == ALLPAIRS_INVALID_ARGUMENT);
     ALLPAIRS_CHECK(allpairs_world_step(worlds[i], &step) == ALLPAIRS_INVALID_ARGUMENT);
     ALLPAIRS_CHECK(allpairs_world_result_of(worlds[i], 0, &step) == ALLPAIRS_INVALID_ARGUMENT);
     ALLPAIRS_CHECK(allpairs_world_find_overlapping(worlds[i], box, NULL, &found) == ALLPAIRS_INVALID_ARGUMENT);
@@ -266,6 +332,7 @@ int main(void) {
   checkStep(world);
   checkQueries(world);
   propertiesAreRead();
+  whatAWorldHoldsCanBeAsked();
   ids[0] = 1;
   sweptBoxesHoldTheirWay(world);
   allpairs_world_destroy(world);
