@@ -44,7 +44,7 @@ def choice(name: str, value: str, choices: dict[str, Chosen]) -> Chosen:
     try:
         return choices[value]
     except (KeyError, TypeError):
-        raise InvalidArgument(f"{name} is {_shown(value)}; it can be {', '.join(map(repr, choices))}") from None
+        raise InvalidArgument(f"{name} is {shown(value)}; it can be {', '.join(map(repr, choices))}") from None
 
 
 def order_of(order: str) -> _core.Order:
@@ -59,16 +59,16 @@ def integer(name: str, value: int) -> int:
     try:
         return operator.index(value.item() if isinstance(value, np.bool_) else value)  # as of Python's own bool
     except TypeError:
-        raise TypeError(f"{name} is {_shown(value)}; it takes an integer") from None
+        raise TypeError(f"{name} is {shown(value)}; it takes an integer") from None
 
 
 def whole(name: str, value: int, least: int = 0, most: int = _UINT64_MAX) -> int:
     """An argument that counts something."""
     number = integer(name, value)
     if number < least:
-        raise InvalidArgument(f"{name} is {_shown(number)}; it is at least {least}")
+        raise InvalidArgument(f"{name} is {shown(number)}; it is at least {least}")
     if number > most:
-        raise InvalidArgument(f"{name} is {_shown(number)}; it is at most {most}")
+        raise InvalidArgument(f"{name} is {shown(number)}; it is at most {most}")
     return number
 
 
@@ -88,13 +88,13 @@ def number(name: str, value: float) -> float:
         try:
             return float(value)
         except OverflowError:
-            raise InvalidArgument(f"{name} is {_shown(value)}, which float64 does not hold") from None
+            raise InvalidArgument(f"{name} is {shown(value)}, which float64 does not hold") from None
         except (TypeError, ValueError):
             pass
-    raise TypeError(f"{name} is {_shown(value)}; it takes a number")
+    raise TypeError(f"{name} is {shown(value)}; it takes a number")
 
 
-def _shown(value: object) -> str:
+def shown(value: object) -> str:
     """A value as messages show it: on one line, and not all of it if it is long."""
     text = " ".join(repr(value).split()) if not isinstance(value, int) or abs(value) < _UINT64_MAX**2 else "a large integer"
     return text if len(text) <= 80 else text[:77] + "..."
@@ -106,11 +106,11 @@ def path_of(name: str, value: str | bytes | os.PathLike[Any]) -> str:
         path = os.fsdecode(value)
         encoded = os.fsencode(path)
     except TypeError:
-        raise TypeError(f"{name} is {_shown(value)}; it takes a path") from None
+        raise TypeError(f"{name} is {shown(value)}; it takes a path") from None
     except UnicodeError:
-        raise InvalidArgument(f"{name} is {_shown(value)}, which no file can be called") from None
+        raise InvalidArgument(f"{name} is {shown(value)}, which no file can be called") from None
     if b"\0" in encoded:
-        raise InvalidArgument(f"{name} is {_shown(value)}, which no file can be called")
+        raise InvalidArgument(f"{name} is {shown(value)}, which no file can be called")
     return path
 
 
@@ -121,7 +121,7 @@ def paths_of(name: str, value: Any) -> list[str]:
     try:
         each = list(value)
     except TypeError:
-        raise TypeError(f"{name} is {_shown(value)}; it takes a path or several") from None
+        raise TypeError(f"{name} is {shown(value)}; it takes a path or several") from None
     return [path_of(name, path) for path in each]
 
 
@@ -130,7 +130,7 @@ def flag(name: str, value: object) -> bool:
     try:
         return bool(value)
     except ValueError:
-        raise InvalidArgument(f"{name} is {_shown(value)}; it takes True or False") from None
+        raise InvalidArgument(f"{name} is {shown(value)}; it takes True or False") from None
 
 
 def is_one(value: object) -> bool:
@@ -174,7 +174,7 @@ def floats(name: str, value: npt.ArrayLike) -> npt.NDArray[Any]:
     if array.size == 0 and array.dtype.kind in "OV":
         return array.astype(np.float64)
     if array.dtype.kind in "OSU" and array.ndim == 0:  # of what is no array, such as None, a path or a generator
-        raise InvalidArgument(f"{name} is {_shown(value)}; it takes numbers")
+        raise InvalidArgument(f"{name} is {shown(value)}; it takes numbers")
     if array.dtype.names is not None:
         rows = "numpy.lib.recfunctions.structured_to_unstructured()"
         raise InvalidArgument(f"{name} has fields, {', '.join(array.dtype.names)}; {rows} makes rows of numbers of them")
@@ -371,12 +371,34 @@ def points(name: str, value: npt.ArrayLike) -> npt.NDArray[np.float64]:
     return array if array.shape[1] == 3 else np.pad(array, ((0, 0), (0, 1)))
 
 
-def rays(origins: npt.ArrayLike, directions: npt.ArrayLike) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
-    """Rays, all in space or all in the plane."""
-    start, way = array_of("origins", origins), array_of("directions", directions)
-    if start.size and start.shape[-1:] != way.shape[-1:]:
-        raise InvalidArgument(f"origins has shape {start.shape}, directions {way.shape}: not of the same axes")
-    return points("origins", start), points("directions", way)
+def _moving(name: str, value: npt.NDArray[Any]) -> npt.NDArray[np.float64]:
+    """What begins to move: points as rows of three, or boxes as rows of six; those in the plane are unbounded in depth."""
+    columns = value.shape[-1] if value.ndim in (1, 2) else 0
+    if columns in (6, 4):
+        rows: npt.NDArray[np.float64] = np.atleast_2d(floats(name, value)).astype(np.float64, copy=False)
+        deep = np.full((len(rows), 1), np.inf)
+        return rows if columns == 6 else np.hstack([rows[:, :2], -deep, rows[:, 2:], deep])
+    if value.size and columns not in (3, 2):
+        raise InvalidArgument(f"{name} has shape {value.shape}; it takes (k, 3) or (k, 2), and for boxes (k, 6) or (k, 4)")
+    return points(name, value)
+
+
+def sweeps(origins: npt.ArrayLike, directions: npt.ArrayLike, length: npt.ArrayLike) -> npt.NDArray[np.float64]:
+    """Rays, or boxes that move, all in space or all in the plane: in each row origin or box, direction and length."""
+    given, ways = array_of("origins", origins), array_of("directions", directions)
+    start, way = _moving("origins", given), points("directions", ways)
+    axes = given.shape[-1:] if start.shape[1] == 3 else (given.shape[-1] // 2,)
+    if given.size and axes != ways.shape[-1:]:
+        raise InvalidArgument(f"origins has shape {given.shape}, directions {ways.shape}: not of the same axes")
+    if len(start) != len(way) and 1 not in (len(start), len(way)):
+        raise InvalidArgument(f"origins has {len(start)} rows and directions {len(way)}")
+    count = len(start) if len(way) == 1 else len(way)
+    end = floats("length", length).astype(np.float64)
+    if end.shape not in ((), (1,), (count,)):
+        raise InvalidArgument(f"length has shape {end.shape}; for {count} rays it takes ({count},)")
+    rows = np.empty((count, start.shape[1] + 4))
+    rows[:, :-4], rows[:, -4:-1], rows[:, -1] = start, way, end
+    return rows
 
 
 def index_rows(name: str, value: npt.ArrayLike, columns: int) -> npt.NDArray[np.uint32]:

@@ -9,14 +9,8 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _arguments, _core
-from ._errors import InvalidArgument
+from ._queries import NO_BOX, Ids, WorldQueries
 from ._search import Pairs
-
-#: Boxes of a World by number: shape (n,).
-Ids = npt.NDArray[np.uint32]
-
-#: The id that no box has.
-NO_BOX: int = _core.NO_BOX
 
 #: The world number of a box that every world has, such as the ground.
 EVERY_WORLD: int = _core.EVERY_WORLD
@@ -56,17 +50,7 @@ def _spread(value: npt.ArrayLike, size: int) -> npt.ArrayLike:
     return np.broadcast_to(value, (size,), subok=True) if _arguments.is_one(value) else value
 
 
-def _query_filter(values: dict[str, Any]) -> _core.QueryFilter:
-    query = _core.QueryFilter()
-    query.category = _arguments.bits("category", values["category"])
-    query.mask = _arguments.bits("mask", values["mask"])
-    query.static, query.moving = (_arguments.flag(name, values[name]) for name in ("static", "moving"))
-    if values["world"] is not None:
-        query.world = _arguments.whole("world", values["world"], most=_core.EVERY_WORLD - 1)
-    return query
-
-
-class World:
+class World(WorldQueries):
     """Boxes that are added, moved and removed by id, their overlapping pairs step by step, and queries.
 
     Each step costs what has changed since the last one. Boxes are closed.
@@ -276,114 +260,3 @@ class World:
         `step` has it among those that persisted.
         """
         return Step(*map(np.asarray, self._core.result_of(_arguments.bits("world", world))))
-
-    def overlapping(
-        self,
-        lower: npt.ArrayLike,
-        upper: npt.ArrayLike | None = None,
-        *,
-        category: int = 0xFFFFFFFF,
-        mask: int = 0xFFFFFFFF,
-        static: bool = True,
-        moving: bool = True,
-        world: int | None = None,
-    ) -> Pairs:
-        """The boxes of the world that overlap each of the given boxes.
-
-        Each box of the world extends by its margin, and the distance of the world does not count.
-
-        Parameters
-        ----------
-        lower, upper : array_like, shape (k, 3), or one of shape (k, 6); (3,) or (6,) for one box
-            With 2 and 4 instead of 3 and 6 in the plane.
-        category, mask : int
-            Only boxes whose category shares a bit with ``mask`` and whose mask with ``category``.
-        static, moving : bool
-            Whether to consider static boxes, and others.
-        world : int, optional
-            Only boxes of this world and those of every world; not EVERY_WORLD. Without it, all worlds are searched one
-            after the other.
-
-        Returns
-        -------
-        ndarray, shape (m, 2), uint32
-            In each row the index of a query and the id of a box, in ascending order.
-        """
-        query = _query_filter(locals())
-        return np.asarray(self._core.overlapping(_arguments.world_boxes(lower, upper), query))
-
-    def first_hits(
-        self,
-        origins: npt.ArrayLike,
-        directions: npt.ArrayLike,
-        length: npt.ArrayLike = np.inf,
-        *,
-        category: int = 0xFFFFFFFF,
-        mask: int = 0xFFFFFFFF,
-        static: bool = True,
-        moving: bool = True,
-        world: int | None = None,
-    ) -> tuple[Ids, npt.NDArray[np.float64]]:
-        """The first box that each ray hits.
-
-        Each box extends by its margin, and the distance of the world does not count.
-
-        Parameters
-        ----------
-        origins, directions : array_like, shape (k, 3) or (3,); in the plane (k, 2) or (2,)
-        length : float or array_like, shape (k,)
-            Rays end at ``origin + length * direction``.
-
-        The others are those of `overlapping`.
-
-        Returns
-        -------
-        ids : ndarray, shape (k,), uint32
-            NO_BOX for a ray without a hit.
-        t : ndarray, shape (k,), float64
-            The parameter of the hit, in units of the direction; infinity without a hit.
-        """
-        query = _query_filter(locals())
-        start, way = _arguments.rays(origins, directions)
-        if len(start) != len(way) and 1 not in (len(start), len(way)):
-            raise InvalidArgument(f"origins has {len(start)} rows and directions {len(way)}")
-        start, way = np.broadcast_arrays(start, way)
-        end = _arguments.floats("length", length).astype(np.float64)
-        if end.shape not in ((), (1,), (len(start),)):
-            raise InvalidArgument(f"length has shape {end.shape}; for {len(start)} rays it takes ({len(start)},)")
-        end = np.broadcast_to(end, (len(start),))
-        ids, t = self._core.first_hits(np.column_stack([start, way, end]), query)
-        return np.asarray(ids), np.asarray(t)
-
-    def nearest(
-        self,
-        points: npt.ArrayLike,
-        k: int = 1,
-        *,
-        category: int = 0xFFFFFFFF,
-        mask: int = 0xFFFFFFFF,
-        static: bool = True,
-        moving: bool = True,
-        world: int | None = None,
-    ) -> tuple[Ids, npt.NDArray[np.float64]]:
-        """The boxes nearest to each point, by Euclidean distance; 0 inside of a box.
-
-        Each box extends by its margin, and the distance of the world does not count.
-
-        Parameters
-        ----------
-        points : array_like, shape (n, 3) or (3,); in the plane (n, 2) or (2,)
-        k : int
-
-        The others are those of `overlapping`.
-
-        Returns
-        -------
-        ids : ndarray, shape (n, k), uint32
-            NO_BOX for missing entries, if there are fewer than k boxes.
-        distances : ndarray, shape (n, k), float64
-        """
-        query = _query_filter(locals())
-        count = _arguments.whole("k", k, least=1, most=NO_BOX)
-        ids, distances = self._core.nearest(_arguments.contiguous(_arguments.points("points", points)), count, query)
-        return np.asarray(ids), np.asarray(distances)

@@ -59,6 +59,9 @@ Lists copyOf(const StepResult& result, const StopFlag& stop) {
            copyOf(result.ended, stop)}};
 }
 
+constexpr py::ssize_t kRayColumns = 7;     // origin, direction, length
+constexpr py::ssize_t kSweepColumns = 10;  // box, direction, length
+
 std::vector<Ray> raysOf(std::span<const double> rows) {
   std::vector<Ray> rays;
   for (std::size_t i = 0; i + 6 < rows.size(); i += 7) {
@@ -66,6 +69,32 @@ std::vector<Ray> raysOf(std::span<const double> rows) {
     rays.push_back({{row[0], row[1], row[2]}, {row[3], row[4], row[5]}, row[6]});
   }
   return rays;
+}
+
+std::vector<BoxSweep> sweepsOf(std::span<const double> rows) {
+  std::vector<BoxSweep> sweeps;
+  for (std::size_t i = 0; i + 9 < rows.size(); i += 10) {
+    const double* row = &rows[i];
+    const Box box{{row[0], row[1], row[2]}, {row[3], row[4], row[5]}};
+    sweeps.push_back({box, {row[6], row[7], row[8]}, row[9]});
+  }
+  return sweeps;
+}
+
+/// Calls ask(rays) or ask(sweeps), of a buffer whose rows are those of the one or of the other.
+template <class Ask>
+void askOf(const py::buffer_info& info, const Ask& ask) {
+  const std::span<const double> rows = valuesOf<double>(info);
+  if (info.shape[1] == kSweepColumns) {
+    ask(sweepsOf(rows));
+  } else {
+    ask(raysOf(rows));
+  }
+}
+
+py::buffer_info sweepBuffer(const py::buffer& rows) {
+  const py::buffer_info info = rows.request();
+  return requestBuffer(rows, {"d", info.ndim == 2 && info.shape[1] == kSweepColumns ? kSweepColumns : kRayColumns});
 }
 
 std::vector<std::array<double, 3>> pointsOf(std::span<const double> rows) {
@@ -87,6 +116,16 @@ void setEach(std::vector<BoxProperties>& boxes, const py::buffer& values, const 
 struct Found {
   std::vector<std::uint32_t> ids;
   std::vector<double> numbers;
+
+  void reserve(std::size_t count) {
+    ids.reserve(count);
+    numbers.reserve(count);
+  }
+
+  void add(const SweepHit& hit) {
+    ids.push_back(hit.id);
+    numbers.push_back(hit.t);
+  }
 
   [[nodiscard]] py::tuple arrays(py::ssize_t columns = 0) && {
     return py::make_tuple(arrayOf(std::move(ids), columns), arrayOf(std::move(numbers), columns));
@@ -242,19 +281,35 @@ std::unique_ptr<PairArray> MovingBoxes::overlapping(const Boxes& boxes, const Qu
   });
 }
 
-py::tuple MovingBoxes::firstHits(const py::buffer& rays, const QueryFilter& filter) {
-  const py::buffer_info info = requestBuffer(rays, {"d", 7});
+py::tuple MovingBoxes::firstHits(const py::buffer& sweeps, const QueryFilter& filter) {
+  const py::buffer_info info = sweepBuffer(sweeps);
+  const auto count = static_cast<std::size_t>(info.shape[0]);
   Found found;
-  search(static_cast<std::size_t>(info.shape[0]), [&](World& world) {
-    const std::vector<Ray> asked = raysOf(valuesOf<double>(info));
-    std::vector<SweepHit> hits(asked.size());
-    world.findFirst(asked, hits, filter);
-    for (const SweepHit& hit : hits) {
-      found.ids.push_back(hit.id);
-      found.numbers.push_back(hit.t);
-    }
+  search(count, [&](World& world) {
+    std::vector<SweepHit> hits(count);
+    askOf(info, [&](const auto& asked) { world.findFirst(asked, hits, filter); });
+    found = {};
+    for (const SweepHit& hit : hits) found.add(hit);
   });
   return std::move(found).arrays();
+}
+
+py::tuple MovingBoxes::allHits(const py::buffer& sweeps, const QueryFilter& filter) {
+  const py::buffer_info info = sweepBuffer(sweeps);
+  std::vector<std::uint64_t> offsets;
+  Found found;
+  search(static_cast<std::size_t>(info.shape[0]), [&](World& world) {
+    ResultLists<SweepHit> lists;
+    askOf(info, [&](const auto& asked) { lists = world.findAll(asked, filter); });
+    offsets.assign(lists.offsets.begin(), lists.offsets.end());
+    found = {};
+    found.reserve(lists.values.size());
+    for (std::size_t i = 0; i < lists.size(); ++i) {
+      checkStop(&m_stop.flag());
+      for (const SweepHit& hit : lists[i]) found.add(hit);
+    }
+  });
+  return py::make_tuple(arrayOf(std::move(offsets)), arrayOf(std::move(found.ids)), arrayOf(std::move(found.numbers)));
 }
 
 py::tuple MovingBoxes::nearest(const py::buffer& points, std::size_t count, const QueryFilter& filter) {

@@ -77,8 +77,12 @@ class MovingBoxes {
   /// In each row the index of a query and the id of a box that it overlaps.
   [[nodiscard]] std::unique_ptr<PairArray> overlapping(const Boxes& boxes, const QueryFilter& filter);
 
-  /// For each ray, of rows of 7 (origin, direction, length), the id of the first box that it meets, and t.
-  [[nodiscard]] pybind11::tuple firstHits(const pybind11::buffer& rays, const QueryFilter& filter);
+  /// For each ray, of rows of 7 (origin, direction, length), the id of the first box that it meets, and t. With rows of
+  /// 10 (box, direction, length), for each box that moves.
+  [[nodiscard]] pybind11::tuple firstHits(const pybind11::buffer& sweeps, const QueryFilter& filter);
+
+  /// The same of all boxes: where those of each ray begin, and one more; their ids; and t.
+  [[nodiscard]] pybind11::tuple allHits(const pybind11::buffer& sweeps, const QueryFilter& filter);
 
   /// For each point, of rows of 3, the ids of the nearest boxes, and their distances; kNoBox and infinity at the end.
   [[nodiscard]] pybind11::tuple nearest(const pybind11::buffer& points, std::size_t count, const QueryFilter& filter);

@@ -56,6 +56,7 @@ void bindWorld(py::module_& module) {
       .def("result_of", &MovingBoxes::resultOf)
       .def("overlapping", &MovingBoxes::overlapping)
       .def("first_hits", &MovingBoxes::firstHits)
+      .def("all_hits", &MovingBoxes::allHits)
       .def("nearest", &MovingBoxes::nearest);
 }
 

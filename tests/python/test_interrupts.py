@@ -68,6 +68,12 @@ world.add(heap[:50_000])
 interrupted(lambda: world.nearest(np.zeros((500_000, 3)), 10))
 assert len(world.overlapping(heap[:1])) == 50_000
 """,
+    "a query of all hits": """
+world = allpairs.World()
+world.add(heap[:50_000], category=2)
+interrupted(lambda: world.all_hits(heap[:500_000], [1, 0, 0], 1, mask=1))
+assert len(world.all_hits(heap[:1], [1, 0, 0])[1]) == 50_000
+""",
     "a partition": """
 points = np.random.default_rng(1).random((2_000_000, 3))
 interrupted(lambda: allpairs.Partition(points, points, cells=1_000_000))

@@ -98,6 +98,8 @@ def test_a_world_is_asked(and_later):
     for call in (
         lambda world: world.overlapping(*OTHERS),
         lambda world: world.first_hits(*rays),
+        lambda world: world.all_hits(*rays),
+        lambda world: world.all_hits(np.hstack(OTHERS)[:20], rays[1], 2),
         lambda world: world.nearest(rays[1], 3),
         lambda world: world.boxes(np.arange(300)),
     ):

@@ -96,7 +96,7 @@ def test_the_stub_of_the_extension_names_what_is_in_it_and_nothing_else(extensio
 
 
 def documented(kind):
-    return [name for name, member in vars(kind).items() if inspect.isfunction(member) and not name.startswith("_")]
+    return [name for name, member in inspect.getmembers(kind, inspect.isfunction) if not name.startswith("_")]
 
 
 def test_every_method_is_documented_and_every_array_has_a_shape():

@@ -1,0 +1,149 @@
+# SPDX-License-Identifier: MIT
+"""What a World can be asked, against double loops."""
+
+import allpairs
+import numpy as np
+import pytest
+from conftest import plane_boxes, random_boxes
+
+BOX = [0, 0, 0, 1, 1, 1]
+
+
+def hits_of(moving, way, length, lower, upper):
+    """In ascending (t, id), which boxes a box meets on its way, and when: one axis after the other, in double. Those that
+    are met by nothing have an upper corner of minus infinity."""
+    axes = len(way)
+    begin, end = np.zeros(len(lower)), np.full(len(lower), float(length))
+    if (moving[:axes] > moving[axes:]).any():
+        return []
+    for axis in range(axes):
+        ahead, behind = lower[:, axis] - moving[axes + axis], upper[:, axis] - moving[axis]
+        if way[axis] == 0:
+            begin[(ahead > 0) | (behind < 0)] = np.inf
+            continue
+        first, last = (ahead, behind) if way[axis] > 0 else (behind, ahead)
+        begin, end = np.maximum(begin, first / way[axis]), np.minimum(end, last / way[axis])
+    hit = np.flatnonzero((begin <= end) & np.isfinite(begin))
+    return sorted((begin[id], id) for id in hit)
+
+
+def check_hits(asked, sweeps, expected, **filters):
+    """Both queries of a world against lists of (t, id); `sweeps` are their first three arguments."""
+    indptr, ids, t = asked.all_hits(*sweeps, **filters)
+    assert (indptr.dtype, ids.dtype, t.dtype) == (np.int64, np.uint32, np.float64)
+    np.testing.assert_array_equal(indptr, np.cumsum([0] + [len(hits) for hits in expected]))
+    assert list(zip(t.tolist(), ids.tolist())) == [hit for hits in expected for hit in hits]
+    ids, t = asked.first_hits(*sweeps, **filters)
+    first = [hits[0] if hits else (np.inf, allpairs.NO_BOX) for hits in expected]
+    assert list(zip(t.tolist(), ids.tolist())) == first
+
+
+def motions(count, axes, seed):
+    """Directions, some of which leave an axis as it is or begin nowhere to go; and lengths, some of them without end."""
+    rng = np.random.default_rng(seed)
+    ways = rng.integers(-3, 4, (count, axes)).astype(float)
+    return ways, np.where(rng.random(count) < 0.3, np.inf, rng.integers(0, 9, count))
+
+
+@pytest.mark.parametrize("threads", [1, 2])
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+def test_rays_and_moving_boxes_hit_what_the_double_loop_hits(dtype, threads):
+    lower, upper = random_boxes(300, 31, dtype)
+    upper[5::53] = lower[5::53] + 9  # no end: a quotient of infinities decides nothing
+    margin = np.random.default_rng(32).integers(-1, 3, 300) / 4
+    world = allpairs.World(threads=threads, distance=3)
+    world.add(lower, upper, margin=margin)
+    full = (lower <= upper).all(axis=1)
+    wide_lower, wide_upper = lower - margin[:, None], upper + margin[:, None]
+    wide_upper[~full] = -np.inf
+    begin, end = random_boxes(80, 33)
+    end[5::53] = begin[5::53]
+    ways, length = motions(80, 3, 34)
+    boxes = np.hstack([begin, end])
+    expected = [hits_of(*sweep, wide_lower, wide_upper) for sweep in zip(boxes, ways, length)]
+    assert sum(map(len, expected)) > 300
+    check_hits(world, (boxes, ways, length), expected)
+    points = np.hstack([begin, begin])
+    expected = [hits_of(*sweep, wide_lower, wide_upper) for sweep in zip(points, ways, length)]
+    assert sum(map(len, expected)) > 100
+    check_hits(world, (begin, ways, length), expected)
+
+
+def test_boxes_that_move_in_the_plane_hit_what_the_double_loop_hits():
+    lower, upper = plane_boxes(300, 35)
+    begin, end = plane_boxes(60, 36)
+    upper[5::53], end[5::53] = lower[5::53] + 9, begin[5::53]
+    upper[(lower > upper).any(axis=1)] = -np.inf
+    world = allpairs.World()
+    world.add(lower, upper)
+    ways, length = motions(60, 2, 37)
+    boxes = np.hstack([begin, end])
+    check_hits(world, (boxes, ways, length), [hits_of(*s, lower, upper) for s in zip(boxes, ways, length)])
+    points = np.hstack([begin, begin])
+    check_hits(world, (begin, ways, length), [hits_of(*s, lower, upper) for s in zip(points, ways, length)])
+
+
+def test_hits_are_filtered():
+    lower, upper = random_boxes(200, 38)
+    upper = np.maximum(lower, np.minimum(upper, lower + 5))
+    rng = np.random.default_rng(39)
+    category, mask = rng.integers(1, 8, (2, 200))
+    static, number = rng.integers(0, 2, 200).astype(bool), rng.integers(0, 3, 200)
+    world = allpairs.World()
+    world.add(lower, upper, category=category, mask=mask, static=static, world=number)
+    boxes, way = np.hstack([lower[:20], upper[:20]]), np.array([1.0, -1, 0.5])
+    everything = [hits_of(box, way, 9, lower, upper) for box in boxes]
+    for filters, kept in (
+        ({"category": 2, "mask": 5}, ((category & 5) != 0) & ((mask & 2) != 0)),
+        ({"static": False}, ~static),
+        ({"moving": False}, static),
+        ({"world": 1}, number == 1),
+    ):
+        expected = [[hit for hit in hits if kept[hit[1]]] for hits in everything]
+        assert 0 < sum(map(len, expected)) < sum(map(len, everything))
+        check_hits(world, (boxes, way, 9), expected, **filters)
+
+
+def test_one_may_be_given_for_all_and_nothing_hits_nothing():
+    world = allpairs.World()
+    world.add([[3, 0, 0, 4, 1, 1], [6, 0, 0, 7, 1, 1]])
+    check_hits(world, (BOX, [1, 0, 0]), [[(2, 0), (5, 1)]])
+    check_hits(world, (BOX, [1, 0, 0], 2), [[(2, 0)]])  # it touches
+    check_hits(world, (BOX, [[4, 0, 0], [0, 1, 0], [-1, 0, 0]], 1), [[(0.5, 0)], [], []])
+    check_hits(world, ([0.5, 0.5, 0.5], [[1, 0, 0], [2, 0, 0]]), [[(2.5, 0), (5.5, 1)], [(1.25, 0), (2.75, 1)]])
+    check_hits(world, ([BOX, [5, 5, 5, 6, 6, 6], [2, 0, 0, 1, 1, 1]], [1, 0, 0]), [[(2, 0), (5, 1)], [], []])
+    for nothing in ([], np.zeros((0, 3)), np.zeros((0, 6))):
+        check_hits(world, (nothing, [1, 0, 0]), [])
+    check_hits(allpairs.World(), (BOX, [1, 0, 0]), [[]])
+
+
+@pytest.mark.parametrize("query", ["first_hits", "all_hits"])
+@pytest.mark.parametrize(
+    "arguments, message",
+    [
+        (([0, np.nan, 0], [1, 0, 0]), "ray 0: its origin is not finite"),
+        (([BOX, [0, 0, 0, 1, np.nan, 1]], [1, 0, 0]), "sweep 1: its box has a NaN"),
+        ((BOX, [1, np.inf, 0]), "sweep 0: its direction is not finite"),
+        ((BOX, [1, 0, 0], -1), "sweep 0: its length is NaN or negative"),
+        (([0, 0, 0], [1, 0, 0], np.nan), "ray 0: its length is NaN or negative"),
+        (([0] * 5, [1, 0, 0]), r"origins has shape \(5,\); it takes \(k, 3\) or \(k, 2\), and for boxes \(k, 6\) or \(k, 4\)"),
+        ((np.zeros((2, 2, 6)), [1, 0, 0]), r"origins has shape \(2, 2, 6\); it takes"),
+        ((BOX, [1, 0]), r"origins has shape \(6,\), directions \(2,\): not of the same axes"),
+        (([0, 0, 1, 1], [1, 0, 0]), r"origins has shape \(4,\), directions \(3,\): not of the same axes"),
+        ((BOX, BOX), r"directions has shape \(1, 6\); it takes \(k, 3\) or \(k, 2\)"),
+        (([BOX] * 2, np.ones((3, 3))), "origins has 2 rows and directions 3"),
+        ((BOX, [1, 0, 0], [1, 2]), r"length has shape \(2,\); for 1 rays it takes \(1,\)"),
+        ((["a"] * 6, [1, 0, 0]), "origins has dtype <U1"),
+        ((np.zeros(6, complex), [1, 0, 0]), "origins has dtype complex128"),
+        ((np.ma.masked_less(np.zeros(6), 1), [1, 0, 0]), "origins has masked entries"),
+        ((None, [1, 0, 0]), "origins "),
+    ],
+)
+def test_hits_of_nonsense_are_refused_in_a_line(query, arguments, message):
+    world = allpairs.World()
+    world.add([BOX])
+    with pytest.raises(allpairs.InvalidArgument, match="^" + message) as caught:
+        getattr(world, query)(*arguments)
+    assert "\n" not in str(caught.value)
+    with pytest.raises(allpairs.InvalidArgument, match="^world is 4294967295"):
+        getattr(world, query)(BOX, [1, 0, 0], world=allpairs.EVERY_WORLD)
