@@ -167,3 +167,23 @@ class WorldQueries:
         count = _arguments.whole("k", k, least=1, most=NO_BOX)
         ids, distances = self._core.nearest(_arguments.contiguous(_arguments.points("points", points)), count, query)
         return np.asarray(ids), np.asarray(distances)
+
+    def overlaps_between(self, other: WorldQueries) -> Pairs:
+        """All pairs of a box of this world and one of another that overlap.
+
+        They overlap at the mean of the distances of the two worlds, with the margins of both boxes. Masks, groups and world
+        numbers decide about them as within a world; two static boxes are a pair, too. With itself, a world has each box with
+        each that it overlaps, which it does itself.
+
+        Parameters
+        ----------
+        other : World
+
+        Returns
+        -------
+        ndarray, shape (m, 2), uint32
+            In each row the id of a box of this world and that of one of the other, in the order of this world.
+        """
+        if not isinstance(other, WorldQueries):
+            raise TypeError(f"other is {_arguments.shown(other)}; it takes a World")
+        return np.asarray(self._core.between(other._core))

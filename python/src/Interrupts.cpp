@@ -133,7 +133,10 @@ void Stopper::stop() {
 
 void Stopper::reset(CallFlag* flag) {
   const std::lock_guard lock(m_mutex);
-  if (m_flag != nullptr) m_flag->m_stopper = nullptr;
+  if (m_flag != nullptr) {
+    m_flag->m_stopper = nullptr;
+    m_flag->m_flag.clear();  // what other calls do with the object goes on
+  }
   m_flag = flag;
   if (m_flag == nullptr) return;
   m_flag->m_stopper = this;

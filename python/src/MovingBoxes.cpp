@@ -330,4 +330,15 @@ py::tuple MovingBoxes::nearest(const py::buffer& points, std::size_t count, cons
   return std::move(found).arrays(static_cast<py::ssize_t>(count));
 }
 
+std::unique_ptr<PairArray> MovingBoxes::between(MovingBoxes& other) {
+  return interruptibly(m_size + other.m_size, runs(), [&](Stopper& stopper) {
+    std::unique_lock lock(m_mutex, std::defer_lock);
+    std::unique_lock otherLock(other.m_mutex, std::defer_lock);
+    // Both at once: two threads may ask for the same two in either order.
+    &other == this ? lock.lock() : std::lock(lock, otherLock);
+    const Stopper::Hold hold(stopper, m_stop);
+    return toPython(m_world.findBetween(other.m_world));
+  });
+}
+
 }  // namespace allpairs::python

@@ -87,7 +87,12 @@ class MovingBoxes {
   /// For each point, of rows of 3, the ids of the nearest boxes, and their distances; kNoBox and infinity at the end.
   [[nodiscard]] pybind11::tuple nearest(const pybind11::buffer& points, std::size_t count, const QueryFilter& filter);
 
+  /// Pairs of a box of this and one of another, or of this too.
+  [[nodiscard]] std::unique_ptr<PairArray> between(MovingBoxes& other);
+
  private:
+  [[nodiscard]] Runs runs() const noexcept { return m_executor ? Runs::OnThreads : Runs::Alone; }
+
   /// Runs work on the world without the GIL, alone.
   template <class Work>
   decltype(auto) alone(const Work& work) {
@@ -99,8 +104,7 @@ class MovingBoxes {
   /// The same for a search, with as many boxes that it asks for, that a signal may interrupt.
   template <class Work>
   auto search(std::size_t queries, const Work& work) {
-    const Runs runs = m_executor ? Runs::OnThreads : Runs::Alone;
-    return interruptibly(m_size + queries, runs, [&](Stopper& stopper) {
+    return interruptibly(m_size + queries, runs(), [&](Stopper& stopper) {
       const std::lock_guard lock(m_mutex);
       const Stopper::Hold hold(stopper, m_stop);
       return work(m_world);

@@ -57,7 +57,8 @@ void bindWorld(py::module_& module) {
       .def("overlapping", &MovingBoxes::overlapping)
       .def("first_hits", &MovingBoxes::firstHits)
       .def("all_hits", &MovingBoxes::allHits)
-      .def("nearest", &MovingBoxes::nearest);
+      .def("nearest", &MovingBoxes::nearest)
+      .def("between", &MovingBoxes::between);
 }
 
 }  // namespace allpairs::python

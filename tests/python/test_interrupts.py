@@ -74,6 +74,17 @@ world.add(heap[:50_000], category=2)
 interrupted(lambda: world.all_hits(heap[:500_000], [1, 0, 0], 1, mask=1))
 assert len(world.all_hits(heap[:1], [1, 0, 0])[1]) == 50_000
 """,
+    "two worlds": """
+worlds = [allpairs.World(threads=threads) for threads in (1, 2)]
+for world in worlds:
+    world.add(heap[:300_000], group=1)
+interrupted(lambda: worlds[0].overlaps_between(worlds[1]))
+interrupted(lambda: worlds[1].overlaps_between(worlds[0]))
+for world in worlds:
+    world.remove(world.ids())
+    world.add(row[:300_000])
+assert len(worlds[0].overlaps_between(worlds[1])) == 300_000
+""",
     "a partition": """
 points = np.random.default_rng(1).random((2_000_000, 3))
 interrupted(lambda: allpairs.Partition(points, points, cells=1_000_000))

@@ -102,6 +102,7 @@ def test_a_world_is_asked(and_later):
         lambda world: world.all_hits(np.hstack(OTHERS)[:20], rays[1], 2),
         lambda world: world.nearest(rays[1], 3),
         lambda world: world.boxes(np.arange(300)),
+        lambda world: world.overlaps_between(world),
     ):
         check(and_later, a_world, call)
 

@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: MIT
 """What a World can be asked, against double loops."""
 
+import threading
+
 import allpairs
 import numpy as np
 import pytest
-from conftest import plane_boxes, random_boxes
+from conftest import every_kept_pair_between, plane_boxes, random_boxes, what_boxes_may_have
 
 BOX = [0, 0, 0, 1, 1, 1]
 
@@ -147,3 +149,58 @@ def test_hits_of_nonsense_are_refused_in_a_line(query, arguments, message):
     assert "\n" not in str(caught.value)
     with pytest.raises(allpairs.InvalidArgument, match="^world is 4294967295"):
         getattr(world, query)(BOX, [1, 0, 0], world=allpairs.EVERY_WORLD)
+
+
+@pytest.mark.parametrize("threads", [1, 2])
+@pytest.mark.parametrize("order", ["first", "second"])
+def test_two_worlds_meet_where_the_double_loop_says(order, threads):
+    boxes = [np.hstack(random_boxes(n, seed)) for n, seed in ((300, 41), (170, 42))]
+    has = [what_boxes_may_have(n, seed) for n, seed in ((300, 43), (170, 44))]
+    worlds = []
+    for rows, each, distance in zip(boxes, has, (0.5, 1.5)):
+        worlds.append(allpairs.World(distance=distance, order=order, threads=threads))
+        worlds[-1].add(rows, **each, static=True)  # which are pairs here all the same
+    both = {name: (has[0][name], has[1][name]) for name in has[0]}
+    expected = every_kept_pair_between(*boxes, distance=1.0, **both)
+    assert len(expected) > 50
+    if order == "second":
+        expected = expected[np.lexsort(expected.T)]
+    found = worlds[0].overlaps_between(worlds[1])
+    assert found.dtype == np.uint32
+    np.testing.assert_array_equal(found, expected)
+    for world in worlds:  # ids, and not rows
+        world.remove(np.arange(0, 100, 3))
+    expected = expected[((expected >= 100) | (expected % 3 != 0)).all(axis=1)]
+    np.testing.assert_array_equal(worlds[0].overlaps_between(worlds[1]), expected)
+
+
+def test_two_worlds_meet_by_number_and_a_world_meets_itself():
+    world, other = allpairs.World(), allpairs.World()
+    assert world.overlaps_between(other).shape == (0, 2)
+    world.add([BOX, BOX, BOX], world=[1, 2, allpairs.EVERY_WORLD])
+    assert world.overlaps_between(other).shape == (0, 2)
+    other.add([BOX, BOX], world=[2, 3])
+    assert world.overlaps_between(other).tolist() == [[1, 0], [2, 0], [2, 1]]
+    assert world.overlaps_between(world).tolist() == [[0, 0], [0, 2], [1, 1], [1, 2], [2, 0], [2, 1], [2, 2]]
+    for wrong in (None, [BOX], "world", world._core):
+        with pytest.raises(TypeError, match="^other is .*; it takes a World$") as caught:
+            world.overlaps_between(wrong)
+        assert "\n" not in str(caught.value)
+
+
+def test_two_worlds_that_ask_each_other_on_two_threads_end():
+    worlds = [allpairs.World(), allpairs.World()]
+    for world in worlds:
+        world.add(np.tile(BOX, (30, 1)))
+    found = []
+
+    def ask(first, second):
+        for _ in range(300):
+            found.append(len(first.overlaps_between(second)))
+
+    threads = [threading.Thread(target=ask, args=pair) for pair in (worlds, worlds[::-1], (worlds[0], worlds[0]))]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert found == [900] * 900
