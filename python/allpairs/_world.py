@@ -50,6 +50,12 @@ def _spread(value: npt.ArrayLike, size: int) -> npt.ArrayLike:
     return np.broadcast_to(value, (size,), subok=True) if _arguments.is_one(value) else value
 
 
+def _columns(labels: npt.NDArray[np.uint32]) -> dict[str, npt.NDArray[Any]]:
+    """Properties that are integers by their names, from rows of them."""
+    columns: dict[str, npt.NDArray[Any]] = {name: labels[:, i].copy() for i, name in enumerate(_LABELS)}
+    return {**columns, "static": columns["static"].astype(bool)}
+
+
 class World(WorldQueries):
     """Boxes that are added, moved and removed by id, their overlapping pairs step by step, and queries.
 
@@ -106,7 +112,7 @@ class World(WorldQueries):
     def __getstate__(self) -> dict[str, Any]:
         """The settings, and ids, bounds and properties of all boxes; and the attributes that others have set."""
         ids, boxes, properties, margin = map(np.asarray, self._core.state())
-        columns = {name: properties[:, i].copy() for i, name in enumerate(_LABELS)}
+        columns = _columns(properties)
         own = {name: value for name, value in vars(self).items() if name not in ("_settings", "_core")}
         return {"settings": self._settings, "ids": ids, "boxes": boxes, "margin": margin, **columns, "attributes": own}
 
@@ -200,6 +206,10 @@ class World(WorldQueries):
         """
         self._core.remove(_arguments.ids(ids))
 
+    def clear(self) -> None:
+        """Removes all boxes; the next step lists their pairs among those that ended."""
+        self._core.clear()
+
     def set_properties(
         self,
         ids: npt.ArrayLike,
@@ -242,6 +252,24 @@ class World(WorldQueries):
             A box in the plane reaches from minus infinity to infinity in depth.
         """
         return np.asarray(self._core.boxes(_arguments.ids(ids)))
+
+    def properties(self, ids: npt.ArrayLike) -> dict[str, npt.NDArray[Any]]:
+        """The properties of boxes, by the names that `add` and `set_properties` have for them.
+
+        ``world.set_properties(ids, **world.properties(others))`` makes boxes what others are.
+
+        Parameters
+        ----------
+        ids : array_like, shape (k,), integers
+
+        Returns
+        -------
+        dict
+            Of "category", "mask", "group" and "world" to ndarray, shape (k,), uint32; of "static" to ndarray, shape (k,), bool;
+            of "margin" to ndarray, shape (k,), float64.
+        """
+        labels, margin = map(np.asarray, self._core.properties(_arguments.ids(ids)))
+        return {**_columns(labels), "margin": margin}
 
     def step(self) -> Step:
         """The current pairs of the boxes, and the changes since the last step."""

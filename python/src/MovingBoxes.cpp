@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <string>
 #include <utility>
 
 #include "Arguments.h"
@@ -29,6 +30,18 @@ std::vector<BoxId> boxIdsOf(const py::buffer& array) {
   const py::buffer_info info = requestBuffer(array, {"I", 0});
   const std::span<const BoxId> ids = valuesOf<BoxId>(info);
   return {ids.begin(), ids.end()};
+}
+
+/// Calls take(id) for each, which must be there, as the world itself checks ids.
+template <class Take>
+void takeEach(const World& world, std::span<const BoxId> ids, const Take& take) {
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    if (!world.contains(ids[i])) {
+      throw InvalidBox(
+          i, "there is no box with the id " + std::to_string(ids[i]) + ", entry " + std::to_string(i) + " of the ids");
+    }
+    take(ids[i]);
+  }
 }
 
 /// Copies pairs of a search, which may take as long as it does.
@@ -112,6 +125,17 @@ void setEach(std::vector<BoxProperties>& boxes, const py::buffer& values, const 
   for (std::size_t i = 0; i < numbers.size(); ++i) set(boxes[i], numbers[i]);
 }
 
+/// The properties of boxes, as columns.
+struct PropertyColumns {
+  std::vector<std::uint32_t> labels;
+  std::vector<double> margins;
+
+  void add(const BoxProperties& box) {
+    labels.insert(labels.end(), {box.category, box.mask, box.group, box.isStatic ? 1U : 0U, box.world});
+    margins.push_back(box.margin);
+  }
+};
+
 /// Ids and a number for each, as two arrays.
 struct Found {
   std::vector<std::uint32_t> ids;
@@ -188,6 +212,13 @@ void MovingBoxes::remove(const py::buffer& ids) {
   });
 }
 
+void MovingBoxes::clear() {
+  alone([&](World& world) {
+    world.clear();
+    m_size = 0;
+  });
+}
+
 void MovingBoxes::setProperties(const py::buffer& ids, const Properties& properties) {
   const std::vector<BoxId> chosen = boxIdsOf(ids);
   if (properties.values().size() != chosen.size()) throw InvalidArgument("properties of another length");
@@ -214,9 +245,7 @@ MovingBoxes::Numbers MovingBoxes::boxes(const py::buffer& ids) {
   const std::vector<BoxId> chosen = boxIdsOf(ids);
   std::vector<double> bounds;
   bounds.reserve(6 * chosen.size());
-  alone([&](World& world) {
-    for (const BoxId id : chosen) append(bounds, world.box(id));
-  });
+  alone([&](World& world) { takeEach(world, chosen, [&](BoxId id) { append(bounds, world.box(id)); }); });
   return arrayOf(std::move(bounds), 6);
 }
 
@@ -231,24 +260,27 @@ MovingBoxes::Ids MovingBoxes::ids() {
   return arrayOf(std::move(ids));
 }
 
+py::tuple MovingBoxes::properties(const py::buffer& ids) {
+  const std::vector<BoxId> chosen = boxIdsOf(ids);
+  PropertyColumns columns;
+  alone([&](World& world) { takeEach(world, chosen, [&](BoxId id) { columns.add(world.properties(id)); }); });
+  return py::make_tuple(arrayOf(std::move(columns.labels), 5), arrayOf(std::move(columns.margins)));
+}
+
 py::tuple MovingBoxes::state() {
   std::vector<BoxId> ids;
   std::vector<double> bounds;
-  std::vector<std::uint32_t> bits;
-  std::vector<double> margins;
+  PropertyColumns columns;
   alone([&](World& world) {
     for (BoxId id = 0; id < world.idBound(); ++id) {
       if (!world.contains(id)) continue;
       ids.push_back(id);
       append(bounds, world.box(id));
-      const BoxProperties properties = world.properties(id);
-      bits.insert(bits.end(), {properties.category, properties.mask, properties.group, properties.isStatic ? 1U : 0U,
-                               properties.world});
-      margins.push_back(properties.margin);
+      columns.add(world.properties(id));
     }
   });
-  return py::make_tuple(arrayOf(std::move(ids)), arrayOf(std::move(bounds), 6), arrayOf(std::move(bits), 5),
-                        arrayOf(std::move(margins)));
+  return py::make_tuple(arrayOf(std::move(ids)), arrayOf(std::move(bounds), 6), arrayOf(std::move(columns.labels), 5),
+                        arrayOf(std::move(columns.margins)));
 }
 
 py::tuple MovingBoxes::step() {

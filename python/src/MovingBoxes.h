@@ -54,6 +54,7 @@ class MovingBoxes {
   void move(const pybind11::buffer& ids, const Boxes& boxes);
   void moveSwept(const pybind11::buffer& ids, const Boxes& starts, const Boxes& ends);
   void remove(const pybind11::buffer& ids);
+  void clear();
   void setProperties(const pybind11::buffer& ids, const Properties& properties);
 
   [[nodiscard]] std::size_t size();
@@ -64,8 +65,10 @@ class MovingBoxes {
 
   [[nodiscard]] Numbers boxes(const pybind11::buffer& ids);
 
-  /// All ids, and for each the box; in each row category, mask, group, whether the box is static, and its world; and the
-  /// margins.
+  /// For each box a row of category, mask, group, whether it is static, and its world; and the margins.
+  [[nodiscard]] pybind11::tuple properties(const pybind11::buffer& ids);
+
+  /// All ids, and for each the box, and what properties() gives.
   [[nodiscard]] pybind11::tuple state();
 
   /// Pairs, and those that began, persisted and ended.

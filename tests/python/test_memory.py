@@ -102,6 +102,7 @@ def test_a_world_is_asked(and_later):
         lambda world: world.all_hits(np.hstack(OTHERS)[:20], rays[1], 2),
         lambda world: world.nearest(rays[1], 3),
         lambda world: world.boxes(np.arange(300)),
+        lambda world: tuple(world.properties(np.arange(300)).values()),
         lambda world: world.overlaps_between(world),
     ):
         check(and_later, a_world, call)
@@ -115,6 +116,7 @@ def test_a_change_of_a_world_is_made_as_a_whole_or_not_at_all(and_later):
         lambda world: world.move(some, np.hstack([lower, upper])),
         lambda world: world.move_swept(some, np.hstack([lower, upper]), (lower + 1, upper + 1)),
         lambda world: world.remove(some),
+        lambda world: world.clear(),
     ):
         k, happened = 1, True
         while happened:

@@ -30,6 +30,7 @@ for batch in allpairs.batches_between(np.zeros((2, 6)), ([[0, 0, 0]], [[1, 1, 1]
 name: str = allpairs.load("a.scn")[0].name
 world = allpairs.World(order="second")
 inside: bool = 3 in world
+world.set_properties([0], **world.properties([1]))
 plain = allpairs.count_between(np.zeros((2, 4)), np.zeros((2, 4)), mask=1, strategy="bvh")
 wrong: str = allpairs.count([])
 allpairs.overlaps([], order="third")
@@ -60,8 +61,8 @@ def test_a_type_checker_finds_the_errors_of_a_program_and_no_others(tmp_path):
     result = subprocess.run(command, capture_output=True, text=True, check=False, cwd=PACKAGE.parent)
     errors = [line for line in result.stdout.splitlines() if ": error: " in line]
     assert len(errors) == 6, result.stdout  # errors within the package would be here too
-    assert "use.py:12: error: Incompatible types" in errors[0]
-    for line, error in enumerate(errors[1:], start=13):
+    assert "use.py:13: error: Incompatible types" in errors[0]
+    for line, error in enumerate(errors[1:], start=14):
         assert f"use.py:{line}: error: Argument" in error
         assert "expected \"Literal[" in error or "Union[Literal[" in error
 

@@ -204,3 +204,55 @@ def test_two_worlds_that_ask_each_other_on_two_threads_end():
     for thread in threads:
         thread.join()
     assert found == [900] * 900
+
+
+def test_properties_are_those_that_were_given():
+    rng = np.random.default_rng(45)
+    given = {name: rng.integers(0, 2**32, 50) for name in ("category", "mask", "group", "world")}
+    given["static"] = rng.integers(0, 2, 50).astype(bool)
+    given["margin"] = rng.random(50)
+    world = allpairs.World()
+    ids = world.add(np.tile(BOX, (50, 1)), **given)
+    some = ids[[7, 3, 3, 49]]
+    found = world.properties(some)
+    assert set(found) == set(given)
+    for name, values in found.items():
+        kind = {"margin": np.float64, "static": np.bool_}.get(name, np.uint32)
+        assert (values.dtype, values.shape) == (kind, (4,))
+        np.testing.assert_array_equal(values, given[name][some])
+    twin = allpairs.World()
+    twin.add(np.tile(BOX, (50, 1)))
+    twin.set_properties(ids, **world.properties(ids))
+    for name, values in twin.properties(ids).items():
+        np.testing.assert_array_equal(values, given[name])
+    assert world.properties(3)["margin"].tolist() == [given["margin"][3]]
+    assert [values.shape for values in world.properties([]).values()] == [(0,)] * 6
+
+
+@pytest.mark.parametrize("get", ["properties", "boxes"])
+def test_what_is_asked_of_a_box_that_is_not_there_names_it(get):
+    world = allpairs.World()
+    world.add([BOX] * 3)
+    world.remove(1)
+    with pytest.raises(allpairs.InvalidBox, match="^there is no box with the id 1, entry 2 of the ids$") as caught:
+        getattr(world, get)([0, 2, 1])
+    assert caught.value.index == 2
+    for ids, message in (
+        ([True], "ids has dtype bool"),
+        ([0.5], "ids has dtype float64"),
+        ([[0, 2]], r"ids has shape \(1, 2\)"),
+        ([-1], r"ids\[0\] is -1"),
+    ):
+        with pytest.raises(allpairs.Error, match="^" + message):
+            getattr(world, get)(ids)
+
+
+def test_a_world_that_is_cleared_has_no_boxes():
+    world = allpairs.World()
+    world.clear()
+    world.add([BOX] * 3)
+    world.step()
+    world.clear()
+    assert (len(world), world.ids().tolist(), 0 in world) == (0, [], False)
+    assert world.step().ended.tolist() == [[0, 1], [0, 2], [1, 2]]
+    assert world.add([BOX])[0] < 3
