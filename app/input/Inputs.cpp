@@ -111,14 +111,6 @@ scene::Scene readScenes(const InputSettings& settings, const scene::ReadOptions&
   return scene;
 }
 
-/// Whether any of the inputs is a SOFA scene, whose words its user knows.
-bool isOfSofa(const scene::Scene& scene) {
-  return std::any_of(scene.inputs.begin(), scene.inputs.end(), [](const std::filesystem::path& file) {
-    const std::string extension = lowerExtension(file.string());
-    return extension == ".scn" || extension == ".xml";
-  });
-}
-
 std::string pipelineText(const scene::ScenePipeline& pipeline) {
   std::string text =
       fmt::format("{}: {}, {}, alarm distance {}", printable(pipeline.name), counted(pipeline.models.size(), "model"),
@@ -227,6 +219,13 @@ std::string boxMethod(std::optional<double> distance, const std::optional<Box>& 
   std::string text = distance ? fmt::format("boxes at most {} apart on every axis", *distance) : "boxes";
   if (region) text += fmt::format(", in the region {}", boxText(*region));
   return text;
+}
+
+bool isOfSofa(const scene::Scene& scene) {
+  return std::any_of(scene.inputs.begin(), scene.inputs.end(), [](const std::filesystem::path& file) {
+    const std::string extension = lowerExtension(file.string());
+    return extension == ".scn" || extension == ".xml";
+  });
 }
 
 std::string methodText(const scene::Scene& scene) {

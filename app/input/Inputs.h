@@ -64,6 +64,9 @@ void warnOfEmpty(const InputSettings& settings, const scene::EmptyBoxes& boxes, 
 /// How boxes are tested, in words.
 [[nodiscard]] std::string boxMethod(std::optional<double> distance, const std::optional<Box>& region);
 
+/// Whether any of the inputs is a SOFA scene: its user knows SOFA's words, and asks what its broad phase finds.
+[[nodiscard]] bool isOfSofa(const scene::Scene& scene);
+
 /// How a scene's models are tested, in words: of a SOFA scene the method and its alarm distance, of meshes as boxes.
 [[nodiscard]] std::string methodText(const scene::Scene& scene);
 

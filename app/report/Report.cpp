@@ -68,8 +68,8 @@ struct ReportSettings {
 
 constexpr const char* kReportExamples = R"(The folder gets index.html, view.html (in 3D), clashes.csv, clashes.bcf
 (for BIM tools) and a folder of pictures. Shapes are tested where the input has any: clashes come
-first, the worst before all, and pairs that are apart are only counted. With
---boxes all pairs of boxes are listed, those with the largest shared volume first.
+first, the worst before all, and pairs that are apart are only counted. Of SOFA scenes, and with
+--boxes, all pairs of boxes are listed, those with the largest shared volume first.
 
 Examples:
   allpairs report parts/ -o report
@@ -280,7 +280,7 @@ void runReport(const ReportSettings& settings) {
   checkIsOneFrame(settings.input.paths);
   const view::ViewScene scene = makeViewScene(settings.input, viewRequest(settings.view));
   if (settings.failOn == "clash" && !scene.isExact)
-    throw UsageError("--fail-on clash is of shapes, and none were tested");
+    throw UsageError("--fail-on clash is of shapes, and none were tested; --exact tests them");
   const std::size_t found = writeReport(scene, settings, date, earlier);
   if (settings.open) openInBrowser(std::filesystem::absolute(std::filesystem::path(settings.folder) / "index.html"));
   const std::string word = settings.failOn == "new" ? "new row" : settings.failOn == "pair" ? "row" : "row of clashes";

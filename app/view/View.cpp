@@ -45,7 +45,9 @@ struct ViewSettings {
 };
 
 constexpr const char* kViewExamples =
-    R"(The page needs no network and no other file. Press ? in it for help.
+    R"(Of a SOFA scene it shows the pairs that detect finds, and of two models that are none the reason;
+with --exact the models whose surfaces meet. Of meshes it tests the shapes, unless --boxes is given.
+The page needs no network and no other file. Press ? in it for help.
 
 Examples:
   allpairs view scene.scn -o scene.html

@@ -14,7 +14,8 @@ namespace allpairs::app {
 void addViewOptions(CLI::App& command, ViewArguments& arguments) {
   addSearchOptions(command, arguments.search);
   command.add_flag("--exact", arguments.exact, "Test shapes, and hide pairs that are apart; the default for meshes");
-  command.add_flag("--boxes", arguments.boxes, "Do not test shapes: show all pairs of boxes");
+  command.add_flag("--boxes", arguments.boxes,
+                   "Show all pairs of boxes, as detect does, and test no shapes; the default for SOFA scenes");
   addChoice(command, "--group", arguments.group, {"body", "assembly", "file", "none"})
       ->description("What is one row: pairs of the same two bodies, assemblies or files, or each pair of models")
       ->capture_default_str();

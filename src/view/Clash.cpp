@@ -184,6 +184,9 @@ std::array<std::string, 3> coordinatesOf(const std::array<double, 3>& point) {
 std::string findingOf(const ViewScene& scene, const Clash& clash) {
   if (clash.exact != nullptr) return exactFinding(scene, clash);
   if (clash.isSelf()) return "The model may touch itself.";
+  if (const auto axis = std::min_element(clash.overlap.begin(), clash.overlap.end()); *axis < 0.0)
+    return fmt::format("The bounding boxes do not overlap, but lie within the distance: they are {} apart on {}.",
+                       shortNumber(-*axis), "xyz"[axis - clash.overlap.begin()]);
   return fmt::format("The bounding boxes overlap by {}, {}, {}; they share a volume of {}.",
                      shortNumber(clash.overlap[0]), shortNumber(clash.overlap[1]), shortNumber(clash.overlap[2]),
                      shortNumber(clash.volume));

@@ -68,6 +68,11 @@ TEST(View, HasTheModelsAndPairsOfDetect) {
   const Json scene = Json::parse(scriptOf(runProgram({"view", input}).out, "allpairs-scene"));
   const Json result = Json::parse(runProgram({"detect", input, "--format", "json"}).out);
   EXPECT_EQ(scene["models"], result["models"].size());
+  EXPECT_EQ(scene["isExact"], false) << "of a SOFA scene, unless shapes are asked for";
+#ifdef ALLPAIRS_HAS_FCL
+  for (const Words& words : {Words{"view", input, "--exact"}, Words{"view", input, "--clearance", "0"}})
+    EXPECT_EQ(Json::parse(scriptOf(runProgram(words).out, "allpairs-scene"))["isExact"], true);
+#endif
   for (std::size_t i = 0; i < result["models"].size(); ++i) EXPECT_EQ(scene["names"][i], result["models"][i]["name"]);
   for (const Json& array : scene["arrays"]) {
     if (array["name"] == "pairs") {

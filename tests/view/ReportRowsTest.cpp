@@ -352,5 +352,20 @@ TEST(Report, IsNotMixedWithOtherFilesUnlessItIsForced) {
   EXPECT_TRUE(std::filesystem::exists(work / "index.html"));
 }
 
+TEST(Report, OfASofaSceneIsOfBoxesAndSaysWhichOfThemOnlyLieWithinTheDistance) {
+  const TempFolder folder;
+  const std::string scene = folder.write(
+      "near.scn",
+      "<Node name='root'><CollisionPipeline/><BruteForceBroadPhase/><BVHNarrowPhase/><CollisionResponse/>"
+      "<MinProximityIntersection alarmDistance='1'/>"
+      "<Node name='A'><MechanicalObject position='0 0 0'/><SphereCollisionModel name='s'/></Node>"
+      "<Node name='B'><MechanicalObject position='2.25 0 0'/><SphereCollisionModel name='s'/></Node></Node>");
+  expectSuccess(runProgram({"report", scene, "-o", folder.path() / "out"}));
+  const std::string page = readBytes(folder.path() / "out/index.html");
+  EXPECT_NE(page.find("do not overlap, but lie within the distance: they are 0.25 apart on x."), std::string::npos);
+  expectFailure(runProgram({"report", scene, "-o", folder.path() / "out", "--fail-on", "clash"}), 2,
+                "none were tested; --exact tests them");
+}
+
 }  // namespace
 }  // namespace allpairs::test

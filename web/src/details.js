@@ -55,8 +55,14 @@ export class Details {
     const isPair = reason.verdict === "pair";
     const names = make("p", "names", this.modelButton(first, "first"));
     if (!isSelf) names.append(make("span", "and", isPair ? "may touch" : "and"), this.modelButton(second, "second"));
-    const verdict = isSelf ? (isPair ? "It may touch itself." : `No pair with itself: ${selfReasonText(reason)}.`) : isPair ? "" : `No pair: ${reasonText(reason)}.`;
+    const verdict = isSelf ? (isPair ? "It may touch itself." : `No pair with itself: ${selfReasonText(reason)}.`) : isPair ? this.nearText(first, second) : `No pair: ${reasonText(reason)}.`;
     fillWith(this.element, this.head(isSelf ? "Self pair" : "Pair"), names, ...(verdict ? [make("p", "verdict", verdict)] : []), this.pairFacts(first, second), ...this.partsOfRow());
+  }
+
+  /** Of a pair whose boxes do not overlap, why it is one. */
+  nearText(first, second) {
+    const isNear = sharedExtents(this.app.frame.boxes, first, second).some((extent) => extent < 0);
+    return isNear ? "The boxes do not overlap, but lie within the distance." : "";
   }
 
   /** The other pairs of the same two bodies, each to be chosen. */

@@ -95,6 +95,7 @@ export function hiddenMark(row, isHidden) {
 }
 
 const stateFilter = (is) => `state ${is}`;
+const nearFilter = "near"; // beside the kinds
 
 export class PairPanel extends Panel {
   constructor(app) {
@@ -111,9 +112,18 @@ export class PairPanel extends Panel {
   makeChips() {
     const { counts, scene } = this.app;
     if (scene.exact !== null) return this.makeStateChips(this.app.table.stateCounts(), counts[kind.excluded]);
-    return [["overlapping", kind.pair], ["self", kind.self], ["excluded", kind.excluded]]
-      .filter(([, is]) => counts[is] > 0)
-      .map(([label, is]) => chip(label, counts[is], kindNames[is], this.filter(is), () => this.update()));
+    const near = this.countNear();
+    return [["overlapping", kind.pair, counts[kind.pair] - near], ["within the distance", kind.pair, near, nearFilter], ["self", kind.self, counts[kind.self]], ["excluded", kind.excluded, counts[kind.excluded]]]
+      .filter(([, , count]) => count > 0)
+      .map(([label, is, count, key = is]) => chip(label, count, kindNames[is], this.filter(key), () => this.update()));
+  }
+
+  /** How many rows are pairs only because of the distance. */
+  countNear() {
+    const { table } = this.app;
+    let count = 0;
+    for (let entry = 0; entry < table.size; ++entry) count += table.isRow(entry) && table.isNear(entry) ? 1 : 0;
+    return count;
   }
 
   makeStateChips(counts, excluded) {
@@ -126,7 +136,8 @@ export class PairPanel extends Panel {
   filterOf(entry) {
     const { table } = this.app;
     const isTested = table.exact !== null && entry < table.found;
-    return this.filter(isTested ? stateFilter(table.exact.stateOf(entry)) : table.kindOf(entry));
+    if (isTested) return this.filter(stateFilter(table.exact.stateOf(entry)));
+    return this.filter(table.isNear(entry) ? nearFilter : table.kindOf(entry));
   }
 
   select(masks) {
@@ -179,9 +190,15 @@ export class PairPanel extends Panel {
     const names = first === second ? [nameLine(first), make("span", "with", "with itself")] : [nameLine(first), nameLine(second)];
     const count = inside > 1 ? [make("span", "tag", `${grouped(inside)} pairs`)] : [];
     const hidden = hiddenMark(row, !table.rowOf(entry).some((e) => this.app.isInSight(e)));
-    row.append(make("span", "dot"), make("span", "names", ...names), ...count, ...hidden, make("span", "value", finding ? shortFinding(finding) : table.exact ? "" : measure(table.volume(entry))));
+    row.append(make("span", "dot"), make("span", "names", ...names), ...count, ...hidden, make("span", "value", finding ? shortFinding(finding) : table.exact ? "" : boxFinding(table, entry)));
     row.title = is === kind.self ? `${first} with itself` : `${first}\n${second}`;
   }
+}
+
+/** What two boxes share, or how far they are apart. */
+function boxFinding(table, entry) {
+  const gap = table.gap(entry);
+  return gap > 0 ? `${measure(gap)} apart` : measure(table.volume(entry));
 }
 
 /** The place of each model when all are ordered by name, "part 9" before "part 10". */

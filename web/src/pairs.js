@@ -81,6 +81,22 @@ export class PairTable {
     return counts;
   }
 
+  /** How far the boxes of an entry are apart, on the axis where that is most; not above 0 where they overlap. */
+  gap(entry) {
+    return Math.max(...sharedExtents(this.frame.boxes, this.first(entry), this.second(entry)).map((extent) => -extent));
+  }
+
+  /** Whether boxes do not overlap and are a pair all the same, as they lie within the distance. */
+  isNear(entry) {
+    if (this.exact !== null || entry >= this.found) return false;
+    const { boxes } = this.frame;
+    const [a, b] = [6 * this.first(entry), 6 * this.second(entry)];
+    for (let k = 0; k < 3; ++k) {
+      if (boxes[a + k] > boxes[b + 3 + k] || boxes[b + k] > boxes[a + 3 + k]) return true;
+    }
+    return false;
+  }
+
   /** The volume that the two boxes share; of a self pair that of its box. */
   volume(entry) {
     const extents = sharedExtents(this.frame.boxes, this.first(entry), this.second(entry));

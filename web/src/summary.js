@@ -17,6 +17,7 @@ function pairNotes(app) {
   const self = app.counts[kind.self];
   const excluded = app.counts[kind.excluded];
   const notes = [];
+  if (app.scene.hasBodies) notes.push(`${grouped(app.table.found)} of models`);
   if (self > 0) notes.push(`${grouped(self)} self`);
   if (excluded > 0) notes.push(`${grouped(excluded)} excluded`);
   return notes.join(", ");

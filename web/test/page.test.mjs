@@ -16,6 +16,7 @@ function volumeOf(a, b) {
   return [0, 1, 2].reduce((volume, k) => volume * Math.max(0, Math.min(a.box[1][k], b.box[1][k]) - Math.max(a.box[0][k], b.box[0][k])), 1);
 }
 
+const isApart = (a, b) => [0, 1, 2].some((k) => a.box[0][k] > b.box[1][k] || b.box[0][k] > a.box[1][k]);
 const close = (a, b) => assert.ok(Math.abs(a - b) <= 1e-4 * Math.max(Math.abs(a), Math.abs(b)), `${a} and ${b}`);
 const toNumber = (text) => Number(text.replace("−", "-").replaceAll(",", ""));
 const isSelf = ([a, b]) => a === b;
@@ -27,8 +28,11 @@ const namesOf = (result, [a, b]) => (a === b ? [result.models[a].name] : [result
 async function compareSummary(page, result) {
   assert.equal(await number(page, "#fact-models"), result.models.length);
   assert.equal(await number(page, "#fact-pairs"), result.pairs.length);
-  const counts = Object.fromEntries((await texts(page, "#pairs-chips .chip")).map((text) => text.split(" ")).map(([label, count]) => [label, toNumber(count)]));
-  assert.equal(counts.overlapping ?? 0, result.pairs.filter((pair) => !isSelf(pair)).length);
+  const counts = Object.fromEntries((await texts(page, "#pairs-chips .chip")).map((text) => text.match(/^(.*) (\S+)$/)).map(([, label, count]) => [label, toNumber(count)]));
+  const others = result.pairs.filter((pair) => !isSelf(pair));
+  const near = others.filter(([a, b]) => isApart(result.models[a], result.models[b]));
+  assert.equal(counts.overlapping ?? 0, others.length - near.length);
+  assert.equal(counts["within the distance"] ?? 0, near.length);
   assert.equal(counts.self ?? 0, result.pairs.filter(isSelf).length);
 }
 
@@ -91,6 +95,7 @@ inChromium("pairs of the same two bodies are one row, with its pairs inside", as
   assert.equal(shown.length, rows.size);
   assert.ok(shown.every((row) => isRow([...row].sort())), JSON.stringify(shown));
   assert.equal(await number(page, "#fact-pairs"), rows.size);
+  assert.equal(await page.textContent("#fact-pairs .note"), `${result.pairs.length} of models`);
   assert.deepEqual(await texts(page, "#pairs-list .tag"), ["4 pairs"]);
   const place = shown.findIndex((row) => row.includes("left.obj") && row.includes("right.obj"));
   await page.click(`#pairs-list .row[data-index="${place}"]`);
