@@ -10,11 +10,36 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <string_view>
 
 #include "cli/ExitStatus.h"
 #include "cli/Text.h"
 
 namespace allpairs::app {
+namespace {
+
+/// The two digits at the beginning of a text, or -1.
+int twoDigits(std::string_view text) {
+  int value = -1;
+  const std::string_view digits = text.substr(0, 2);
+  const auto [end, problem] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  return digits.size() == 2 && digits.front() != '-' && problem == std::errc() && end == digits.data() + 2 ? value : -1;
+}
+
+/// The version that stands for one of SOFA's, such as 24.06 or 24.06.00, because scenes are read alike by both.
+std::string readAlike(const std::string& text) {
+  constexpr int kLastOld = 2006, kFirstNew = 2206, kLastNew = 2612;
+  const std::string_view version = text;
+  const bool isForm =
+      (version.size() == 5 || (version.size() == 8 && version[5] == '.' && twoDigits(version.substr(6)) >= 0)) &&
+      version[2] == '.' && twoDigits(version) >= 0 && twoDigits(version.substr(3)) >= 0;
+  const int number = isForm ? 100 * twoDigits(version) + twoDigits(version.substr(3)) : kLastOld + 1;
+  if (number <= kLastOld) return "20.06";
+  if (number >= kFirstNew && number <= kLastNew) return "26.12";
+  throw UsageError("--sofa: '" + text + "' is neither a version up to 20.06 nor one from 22.06 to 26.12");
+}
+
+}  // namespace
 
 void addReadLimits(CLI::App& command, ReadLimits& limits) {
   command.add_flag("--allow-outside", limits.allowOutside, "Let inputs name files outside of their own folders");
@@ -42,8 +67,12 @@ void addInputs(CLI::App& command, InputSettings& settings) {
       ->type_name("DIR")
       ->expected(1)
       ->take_all();
-  addChoice(command, "--sofa", settings.sofa, {"20.06", "26.12"})
-      ->description("Read scenes as this SOFA does; by default the one that knows their components");
+  command
+      .add_option("--sofa", settings.sofa,
+                  "Read scenes as this SOFA does, up to 20.06 or from 22.06 on; by default as one that knows their "
+                  "components")
+      ->type_name("20.06|26.12")
+      ->transform(readAlike);
   addReadLimits(command, settings.limits);
 }
 

@@ -189,6 +189,24 @@ TEST(DetectScene, ASceneWithoutAPipelineIsTestedAndThatIsSaid) {
   EXPECT_EQ(result["warnings"][0]["line"], 1);
 }
 
+TEST(InfoOfAScene, IsReadAsByTheVersionThatReadsAsTheOneThatIsGiven) {
+  const TempFolder folder;
+  const std::string scene = folder.write("named.scn", R"(<Node name="root"><CollisionPipeline/>
+<Node><MechanicalObject position="0 0 0"/><SphereCollisionModel name="s"/></Node></Node>)");
+  const auto read = [&scene](const std::string& version) {
+    const ProgramRun run = runProgram({"info", scene, "--sofa", version});
+    EXPECT_EQ(run.status, 0) << version << run.err;
+    return run.out;
+  };
+  const std::string before = read("20.06"), after = read("26.12");
+  EXPECT_NE(before, after) << "a node without a name has a number, or none";
+  for (const char* version : {"19.12", "17.06.02"}) EXPECT_EQ(read(version), before) << version;
+  for (const char* version : {"22.06", "24.06", "24.06.01"}) EXPECT_EQ(read(version), after) << version;
+  for (const char* version : {"21.12", "27.06", "24.6", "24.06.1", "2406", "v24.06", "-1.06", "new"})
+    expectFailure(runProgram({"info", scene, "--sofa", version}), kWrongUsage,
+                  "is neither a version up to 20.06 nor one from 22.06 to 26.12");
+}
+
 TEST(DetectScene, AMeshThatIsLeftOutIsNamedOnce) {
   const TempFolder folder;
   folder.write("a.obj", "o wheel\x1b[31m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
