@@ -221,11 +221,14 @@ std::string boxMethod(std::optional<double> distance, const std::optional<Box>& 
   return text;
 }
 
+bool isSofaFile(const std::string& path) {
+  const std::string extension = lowerExtension(path);
+  return extension == ".scn" || extension == ".xml";
+}
+
 bool isOfSofa(const scene::Scene& scene) {
-  return std::any_of(scene.inputs.begin(), scene.inputs.end(), [](const std::filesystem::path& file) {
-    const std::string extension = lowerExtension(file.string());
-    return extension == ".scn" || extension == ".xml";
-  });
+  return std::any_of(scene.inputs.begin(), scene.inputs.end(),
+                     [](const std::filesystem::path& file) { return isSofaFile(file.string()); });
 }
 
 std::string methodText(const scene::Scene& scene) {

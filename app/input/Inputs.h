@@ -64,6 +64,9 @@ void warnOfEmpty(const InputSettings& settings, const scene::EmptyBoxes& boxes, 
 /// How boxes are tested, in words.
 [[nodiscard]] std::string boxMethod(std::optional<double> distance, const std::optional<Box>& region);
 
+/// Whether a path is that of a SOFA scene.
+[[nodiscard]] bool isSofaFile(const std::string& path);
+
 /// Whether any of the inputs is a SOFA scene: its user knows SOFA's words, and asks what its broad phase finds.
 [[nodiscard]] bool isOfSofa(const scene::Scene& scene);
 

@@ -9,6 +9,7 @@
 #include "allpairs/collision/TriangleModel.h"
 #include "allpairs/scene/FileError.h"
 #include "allpairs/scene/ReadInput.h"
+#include "cli/ExitStatus.h"
 #include "cli/Text.h"
 #include "input/Inputs.h"
 
@@ -69,6 +70,15 @@ std::vector<TriangleMesh> readTriangleMeshes(const InputSettings& settings, std:
   if (const std::size_t left = scene.models.size() - meshes.size(); left != 0 && isFirst)
     warnOf(settings, {{.file = path, .subject = {}, .reason = counted(left, "model") + " left out: no triangle mesh"}});
   return meshes;
+}
+
+void refuseScenesAsFrames(const InputSettings& settings) {
+  for (const std::string& path : settings.paths) {
+    if (!isSofaFile(path)) continue;
+    throw UsageError(printable(shownPath(settings, path).string()) +
+                     ": a SOFA scene is read as it is at its start, and has no frames; 'allpairs detect' finds the "
+                     "pairs of the start, and sofa-trace-scene (docs/sofa.md) those of each step, run by SOFA");
+  }
 }
 
 std::vector<Box> triangleBoxes(const std::vector<TriangleMesh>& meshes) {

@@ -32,6 +32,9 @@ struct MeshStep {
 [[nodiscard]] std::vector<TriangleMesh> readTriangleMeshes(const InputSettings& settings, std::size_t input,
                                                            bool isFirst);
 
+/// Bad input: throws UsageError where an input is a SOFA scene, of which only the start is read, and not frames.
+void refuseScenesAsFrames(const InputSettings& settings);
+
 /// The boxes of all their triangles, mesh by mesh.
 [[nodiscard]] std::vector<Box> triangleBoxes(const std::vector<TriangleMesh>& meshes);
 

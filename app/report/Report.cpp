@@ -68,8 +68,9 @@ struct ReportSettings {
 
 constexpr const char* kReportExamples = R"(The folder gets index.html, view.html (in 3D), clashes.csv, clashes.bcf
 (for BIM tools) and a folder of pictures. Shapes are tested where the input has any: clashes come
-first, the worst before all, and pairs that are apart are only counted. Of SOFA scenes, and with
---boxes, all pairs of boxes are listed, those with the largest shared volume first.
+first, the worst before all, and pairs that are apart are only counted. Of SOFA scenes,
+and with --boxes, all pairs of boxes are listed, those with the largest shared volume
+first. A scene with several collision pipelines is for detect only.
 
 Examples:
   allpairs report parts/ -o report

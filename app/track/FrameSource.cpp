@@ -71,6 +71,7 @@ class MeshFrames final : public FrameSource {
 std::unique_ptr<FrameSource> openFrames(const InputSettings& input) {
   const std::vector<std::string>& paths = input.paths;
   const auto isNpy = [](const std::string& path) { return lowerExtension(path) == ".npy"; };
+  refuseScenesAsFrames(input);
   if (std::none_of(paths.begin(), paths.end(), isNpy)) return std::make_unique<MeshFrames>(input);
   if (paths.size() == 1) return std::make_unique<NpyFrames>(input);
   throw UsageError("give one .npy file with all frames, or one mesh file per frame");

@@ -167,7 +167,7 @@ void fill(scene::Scene& from, const ViewRequest& request, view::ViewScene& to) {
   if (!from.pipelines.empty())
     throw UsageError(
         "this scene has several collision pipelines, of which a page would show one; 'allpairs detect' finds "
-        "the pairs of all");
+        "the pairs of all (docs/scenes.md)");
   const Detection detection = detectScene(from, request.detection);
   to.method = methodText(from);
   to.distance = from.intersection->getAlarmDistance();

@@ -45,8 +45,9 @@ struct ViewSettings {
 };
 
 constexpr const char* kViewExamples =
-    R"(Of a SOFA scene it shows the pairs that detect finds, and of two models that are none the reason;
-with --exact the models whose surfaces meet. Of meshes it tests the shapes, unless --boxes is given.
+    R"(Of a SOFA scene the page shows the pairs that detect finds, and why two other models are
+none; with --exact, which surfaces meet. A scene with several collision pipelines is for
+detect only. Of meshes shapes are tested, unless --boxes is given.
 The page needs no network and no other file. Press ? in it for help.
 
 Examples:

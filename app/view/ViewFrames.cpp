@@ -173,6 +173,7 @@ view::ViewScene makeViewFrames(const InputSettings& input, const ViewRequest& re
   refuseSceneOptions(input, to);
   const bool isGrouped = request.grouping == Grouping::Assembly || request.grouping == Grouping::File;
   if (isGrouped) throw UsageError("--group does not apply to " + to);
+  refuseScenesAsFrames(input);
   if (request.shapes == ShapeTest::Always)
     throw UsageError("--exact, --clearance and --min-depth do not apply to " + to);
   view::ViewScene scene = isArray ? makeBoxFrames(input, request.detection) : makeMeshFrames(input, request.detection);

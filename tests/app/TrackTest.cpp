@@ -151,6 +151,15 @@ TEST(Track, OfSeveralArraysIsWrongUsage) {
   expectFailure(runProgram({"track", file, file}), 2, "one mesh file per frame");
 }
 
+TEST(Track, OfASofaSceneSaysThatOnlyItsStartIsRead) {
+  const TempFolder folder;
+  const std::string scene = folder.write("fall.scn", "<Node name='root'/>");
+  const std::string message =
+      "fall.scn: a SOFA scene is read as it is at its start, and has no frames; 'allpairs detect'";
+  expectFailure(runProgram({"track", scene, scene}), kWrongUsage, message);
+  expectFailure(runProgram({"view", "--sequence", scene}), kWrongUsage, message);
+}
+
 TEST(Track, OfNoFramesOrNoBoxesCountsNothing) {
   const TempFolder folder;
   for (const char* shape : {"(0, 5, 6)", "(3, 0, 6)"}) {
