@@ -189,6 +189,27 @@ TEST(DetectScene, ASceneWithoutAPipelineIsTestedAndThatIsSaid) {
   EXPECT_EQ(result["warnings"][0]["line"], 1);
 }
 
+TEST(InfoOfAScene, HasContactDistancesAndWhatLiesOutsideOfTheRegion) {
+  const TempFolder folder;
+  const std::string begin =
+      "<Node name='root'><CollisionPipeline/><BruteForceBroadPhase box='-1 -1 -1 1 1 1'/>"
+      "<BVHNarrowPhase/><CollisionResponse/><MinProximityIntersection alarmDistance='0.5'/>"
+      "<Node name='A'><MechanicalObject position='0 0 0'/><SphereCollisionModel name='s'/></Node>"
+      "<Node name='B'><MechanicalObject position='9 0 0'/><SphereCollisionModel name='s'";
+  const ProgramRun plain = runProgram({"info", folder.write("plain.scn", begin + "/></Node></Node>")});
+  expectSuccess(plain);
+  EXPECT_NE(plain.out.find(R"(
+#  name  type          elements  flags    groups  box
+0  /A/s  TSphereModel         1  -        -       [-1, -1, -1] to [1, 1, 1]
+1  /B/s  TSphereModel         1  outside  -       [8, -1, -1] to [10, 1, 1]
+)"),
+            std::string::npos)
+      << plain.out;
+  const ProgramRun near = runProgram({"info", folder.write("near.scn", begin + " proximity='0.25'/></Node></Node>")});
+  EXPECT_NE(near.out.find("flags    groups  contact  box\n"), std::string::npos) << near.out;
+  EXPECT_NE(near.out.find("outside  -       0.25     ["), std::string::npos) << near.out;
+}
+
 TEST(InfoOfAScene, IsReadAsByTheVersionThatReadsAsTheOneThatIsGiven) {
   const TempFolder folder;
   const std::string scene = folder.write("named.scn", R"(<Node name="root"><CollisionPipeline/>
