@@ -101,7 +101,7 @@ void SceneRun::replace(BroadPhase& old, const std::string& broadPhaseClass) {
   for (BaseComponent* component : m_root->getTreeObjects<BaseComponent>()) {
     auto* link = component->findLink("broadPhaseDetection");
     if (link != nullptr && link->getSize() > 0 && link->getLinkedBase() == &old) {
-      link->read("@" + made->getPathName());
+      link->read(std::string("@").append(made->getPathName()));
     }
   }
 }

@@ -31,7 +31,9 @@ constexpr Strategy kStrategies[] = {Strategy::Automatic, Strategy::Exhaustive, S
 
 std::string nameOf(const PairList& pairs, std::size_t i) {
   if (i >= pairs.size()) return "no pair";
-  return "(" + pairs[i].first->getLast()->getPathName() + ", " + pairs[i].second->getLast()->getPathName() + ")";
+  std::string name = "(";  // appended to: GCC 12 warns of operator+ where its first operand is a literal
+  name += pairs[i].first->getLast()->getPathName() + ", " + pairs[i].second->getLast()->getPathName() + ")";
+  return name;
 }
 
 }  // namespace
