@@ -96,6 +96,7 @@ void TrackedModel::readLevels() {
   while (!getInputs().empty()) delInput(getInputs().back());
   for (sofa::core::objectmodel::DDGNode* data : DataOfModel::of(*m_root, *last)) addInput(data);
   m_last = last;
+  m_lastAsComponent = last.get();
 }
 
 void TrackedModel::readData() {
@@ -112,7 +113,7 @@ void TrackedModel::readData() {
 }
 
 void TrackedModel::readNode() {
-  const void* owner = m_last->getContext();
+  const void* owner = m_lastAsComponent->getContext();
   if (m_model->getOwner() != owner) m_model->setOwner(owner);
 }
 

@@ -58,6 +58,7 @@ class TrackedModel final : public sofa::core::objectmodel::DDGNode {
 
   sofa::core::CollisionModel::SPtr m_root;
   sofa::core::CollisionModel::SPtr m_last;
+  const sofa::core::objectmodel::BaseComponent* m_lastAsComponent = nullptr;  // a virtual base, far from the rest
   const sofa::core::CollisionModel* m_belowRoot = nullptr;
   const sofa::core::CollisionModel* m_aboveLast = nullptr;
   std::unique_ptr<collision::HostedModel> m_model;
