@@ -251,7 +251,8 @@ TEST(FailedAllocationOfTheProgram, DetectGltf) {
 
 TEST(FailedAllocationOfTheProgram, DetectScene) {
   constexpr const char* kScene =
-      "<Node name='root'>\n<DefaultPipeline/><BruteForceBroadPhase/><MinProximityIntersection alarmDistance='3'/>\n"
+      "<Node name='root'>\n<CollisionPipeline/><BruteForceDetection/><CollisionResponse/><MinProximityIntersection "
+      "alarmDistance='3'/>\n"
       "<Node name='a'><MeshOBJLoader name='m' filename='mesh.obj'/><MeshTopology src='@m'/><MechanicalObject "
       "src='@m'/>\n"
       "<TriangleCollisionModel/></Node>\n<Node name='b'><MechanicalObject template='Rigid3d' position='1 1 1 0 0 0 "

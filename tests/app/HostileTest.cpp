@@ -10,7 +10,7 @@ namespace allpairs::test {
 namespace {
 
 constexpr const char* kScene =
-    "<Node name='root'><DefaultPipeline/>\n<MeshTopology name='m' "
+    "<Node name='root'><CollisionPipeline/><BruteForceDetection/>\n<MeshTopology name='m' "
     "filename='../a.obj'/><MechanicalObject/><TriangleModel/></Node>";
 
 TEST(HostileInput, NamesFilesOutsideOnlyWhereTheUserAllowsIt) {

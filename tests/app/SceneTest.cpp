@@ -80,7 +80,7 @@ TEST(DetectScene, TheScenesOfTheDataFolderGiveTheModelsAndPairsBesideThem) {
 
 TEST(DetectScene, ADistanceReplacesTheAlarmDistanceAndABoxTheRegion) {
   const TempFolder folder;
-  const std::string scene = folder.write("two.scn", R"(<Node name="root"><DefaultPipeline/><BruteForceBroadPhase/>
+  const std::string scene = folder.write("two.scn", R"(<Node name="root"><CollisionPipeline/><BruteForceDetection/>
 <MinProximityIntersection alarmDistance="5"/>
 <Node name="A"><MechanicalObject position="0 0 0"/><SphereCollisionModel name="s" radius="1"/></Node>
 <Node name="B"><MechanicalObject position="3 0 0"/><SphereCollisionModel name="s" radius="1"/></Node></Node>)");
@@ -99,7 +99,7 @@ TEST(DetectScene, AMalformedSceneIsNamedWithItsLine) {
 
 TEST(DetectScene, APartialResultIsNotSilent) {
   const TempFolder folder;
-  const std::string scene = folder.write("two.scn", R"(<Node name="root"><CollisionPipeline/>
+  const std::string scene = folder.write("two.scn", R"(<Node name="root"><CollisionPipeline/><BruteForceDetection/>
 <Node name="A"><MechanicalObject position="0 0 0"/><SphereCollisionModel name="s" radius="1"/></Node>
 <Node name="B"><MechanicalObject position="3 0 0"/><SphereCollisionModel name="s" radius="-1"/></Node></Node>)");
   const std::string warning =
@@ -119,7 +119,7 @@ TEST(DetectScene, APartialResultIsNotSilent) {
 
 TEST(DetectScene, APartialResultOfNothingIsBadInput) {
   const TempFolder folder;
-  const std::string scene = folder.write("none.scn", R"(<Node name="root"><CollisionPipeline/>
+  const std::string scene = folder.write("none.scn", R"(<Node name="root"><CollisionPipeline/><BruteForceDetection/>
 <Node name="B"><MechanicalObject position="3 0 0"/><SphereCollisionModel name="s" radius="-1"/></Node></Node>)");
   expectFailure(runProgram({"detect", "--partial", scene}), 3, scene + ": no model of it can be placed or read");
   EXPECT_EQ(runProgram({"info", "--partial", scene}).status, 0);
@@ -129,17 +129,17 @@ TEST(DetectScene, APartialResultOfNothingIsBadInput) {
 
 TEST(DetectScene, AMeshThatIsNotThereTellsWhereElseToSay) {
   const TempFolder folder;
-  const std::string scene = folder.write("mesh.scn", R"(<Node name="root"><CollisionPipeline/>
+  const std::string scene = folder.write("mesh.scn", R"(<Node name="root"><CollisionPipeline/><BruteForceDetection/>
 <MeshOBJLoader name="l" filename="gone.obj"/><MeshTopology src="@l"/><MechanicalObject/><TriangleCollisionModel/></Node>)");
   expectFailure(runProgram({"detect", scene}), 3, "the file 'gone.obj' is nowhere to be found; --data DIR");
 }
 
 /// Two spheres that touch, in two nodes with a pipeline each.
 const std::string kTwoPipelines = R"(<Node name="root">
-<Node name="A"><CollisionPipeline name="p"/><MinProximityIntersection alarmDistance="2"/>
+<Node name="A"><CollisionPipeline name="p"/><BruteForceDetection/><MinProximityIntersection alarmDistance="2"/>
 <Node name="1"><MechanicalObject position="0 0 0"/><SphereCollisionModel name="s" radius="1"/></Node>
 <Node name="2"><MechanicalObject position="3 0 0"/><SphereCollisionModel name="s" radius="1"/></Node></Node>
-<Node name="B"><CollisionPipeline name="p"/><DiscreteIntersection/>
+<Node name="B"><CollisionPipeline name="p"/><BruteForceDetection/><DiscreteIntersection/>
 <Node name="1"><MechanicalObject position="0 0 0"/><SphereCollisionModel name="s" radius="1"/></Node>
 <Node name="2"><MechanicalObject position="1 0 0"/><SphereCollisionModel name="s" radius="1"/></Node>
 <Node name="3"><MechanicalObject position="4 0 0"/><SphereCollisionModel name="s" radius="1"/></Node></Node></Node>)";
@@ -192,7 +192,8 @@ TEST(DetectScene, ASceneWithoutAPipelineIsTestedAndThatIsSaid) {
 TEST(InfoOfAScene, HasContactDistancesAndWhatLiesOutsideOfTheRegion) {
   const TempFolder folder;
   const std::string begin =
-      "<Node name='root'><CollisionPipeline/><BruteForceBroadPhase box='-1 -1 -1 1 1 1'/>"
+      "<Node name='root'><CollisionPipeline/><BruteForceBroadPhase box='-1 -1 -1 1 1 "
+      "1'/><BVHNarrowPhase/><CollisionResponse/>"
       "<BVHNarrowPhase/><CollisionResponse/><MinProximityIntersection alarmDistance='0.5'/>"
       "<Node name='A'><MechanicalObject position='0 0 0'/><SphereCollisionModel name='s'/></Node>"
       "<Node name='B'><MechanicalObject position='9 0 0'/><SphereCollisionModel name='s'";
@@ -212,7 +213,7 @@ TEST(InfoOfAScene, HasContactDistancesAndWhatLiesOutsideOfTheRegion) {
 
 TEST(InfoOfAScene, IsReadAsByTheVersionThatReadsAsTheOneThatIsGiven) {
   const TempFolder folder;
-  const std::string scene = folder.write("named.scn", R"(<Node name="root"><CollisionPipeline/>
+  const std::string scene = folder.write("named.scn", R"(<Node name="root"><CollisionPipeline/><BruteForceDetection/>
 <Node><MechanicalObject position="0 0 0"/><SphereCollisionModel name="s"/></Node></Node>)");
   const auto read = [&scene](const std::string& version) {
     const ProgramRun run = runProgram({"info", scene, "--sofa", version});

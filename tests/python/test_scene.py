@@ -142,7 +142,7 @@ def test_box_arrays_give_the_pairs_of_the_double_loop():
 
 
 def spheres(node, *places):
-    return f"<Node name='{node}'><CollisionPipeline/>" + "".join(
+    return f"<Node name='{node}'><CollisionPipeline/><BruteForceDetection/>" + "".join(
         f"<Node><MechanicalObject position='{x} 0 0'/><SphereCollisionModel name='s'/></Node>" for x in places
     ) + "</Node>"
 

@@ -95,7 +95,7 @@ TEST(ReportOfIfc, ClassNameAndGlobalIdAreApart) {
 }
 
 /// Two bodies of two models each, which all overlap, and a third one that overlaps one of them.
-const std::string kBodies = R"(<Node name="root"><CollisionPipeline/>
+const std::string kBodies = R"(<Node name="root"><CollisionPipeline/><BruteForceDetection/>
 <Node name="A"><MechanicalObject position="0 0 0  1 0 0"/><SphereCollisionModel name="s" radius="1"/>
 <PointCollisionModel name="p"/></Node>
 <Node name="B"><MechanicalObject position="0.5 0 0  1.5 0 0"/><SphereCollisionModel name="s" radius="1"/>
@@ -167,8 +167,8 @@ TEST(ReportOfBodies, OfTheSameNameAreToldApart) {
   const std::string body =
       R"(<Node name="A"><MechanicalObject position="0 0 0"/><SphereCollisionModel name="s" radius="1"/>
 <PointCollisionModel name="p"/></Node>)";
-  const std::string scene =
-      folder.write("same.scn", "<Node name=\"root\"><CollisionPipeline/>" + body + body + body + "</Node>");
+  const std::string scene = folder.write(
+      "same.scn", "<Node name=\"root\"><CollisionPipeline/><BruteForceDetection/>" + body + body + body + "</Node>");
   expectSuccess(runProgram({"report", scene, "--boxes", "-o", folder.path() / "out"}));
   EXPECT_EQ(filesOf(folder.path() / "out/clashes.bcf").size(), 3 * 3 + 1U) << "three rows, each with its GUID";
   for (const char* name : {"left/wheel.obj", "right/wheel.obj"})
