@@ -203,8 +203,11 @@ std::vector<EarlierClash> readReportCsv(std::string_view text) {
     if (state < head.size()) row.state = stateNamed(fields[state]);
     if (depth < head.size()) row.depth = depthIn(fields[depth]);
     row.guid = std::move(fields[guid]);
-    for (std::size_t i = 0; i < row.places.size() && places[i][1] < head.size(); ++i)
-      row.places[i] = {nameOf(std::move(fields[places[i][0]])), nameOf(std::move(fields[places[i][1]]))};
+    for (std::size_t i = 0; i < row.places.size(); ++i) {
+      const auto [file, path] = places[i];
+      if (std::max(file, path) < head.size())
+        row.places[i] = {nameOf(std::move(fields[file])), nameOf(std::move(fields[path]))};
+    }
     row.first = nameOf(std::move(fields[1]));
     row.second = nameOf(std::move(fields[2]));
   }

@@ -162,5 +162,16 @@ TEST(ReportRevisions, AnEarlierTableWithoutPlacesIsComparedByNames) {
   EXPECT_EQ(rowsOf(revisions.out()).back().at("guid"), guid + "4");
 }
 
+TEST(ReportRevisions, AnEarlierTableWithSomeColumnsOfPlacesIsComparedByNames) {
+  const TempFolder folder;
+  const std::string input = folder.write("parts.csv", "0,0,0,1,1,1\n0,0,0,2,2,2\n");
+  for (const std::string column : {"first_path", "first_file", "second_path", "second_file"}) {
+    const std::string table =
+        "number,first,second,guid," + column + "\n1,no. 0,no. 1,01234567-89ab-4cde-8f01-23456789abcd,somewhere\n";
+    expectSuccess(runProgram({"report", input, "--boxes", "-o", folder.path() / ("of " + column), "--since",
+                              folder.write(column + ".csv", table)}));
+  }
+}
+
 }  // namespace
 }  // namespace allpairs::test
