@@ -118,7 +118,7 @@ class BodyMaker {
     }
     if (source.id.empty() || !isBody)
       body.identity = m_fileIdentities[source.file] + '\n' + (hasPath ? source.path : part);
-    if (!isBody && !source.assemblyId.empty()) body.identity = source.assemblyId;
+    if (m_grouping == Grouping::Assembly && !source.assemblyId.empty()) body.identity = source.assemblyId;
     const std::string& name = m_scene.models[model]->getName();
     const std::size_t place = name.rfind(source.name);
     if (place != std::string::npos) body.name = name.substr(0, place) + part;

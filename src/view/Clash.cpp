@@ -23,6 +23,11 @@ std::uint64_t hashOf(const std::vector<std::string>& texts, std::uint64_t seed) 
   return hash;
 }
 
+/// How far boxes are apart, on the axis on which it is most; 0 where they are not.
+double gapOf(const Clash& clash) {
+  return std::max(0.0, -*std::min_element(clash.overlap.begin(), clash.overlap.end()));
+}
+
 /// What touches itself comes last: its boxes always share all.
 bool comesBefore(const Clash& a, const Clash& b) {
   if (a.exact != nullptr && b.exact != nullptr) {
@@ -30,7 +35,8 @@ bool comesBefore(const Clash& a, const Clash& b) {
     if (isWorse(*b.exact, *a.exact)) return false;
   }
   if (a.isSelf() != b.isSelf()) return b.isSelf();
-  return a.volume > b.volume;
+  if (a.volume > b.volume || b.volume > a.volume) return a.volume > b.volume;
+  return gapOf(a) < gapOf(b);
 }
 
 /// Of surfaces that meet all of it, and the deepest or the nearest points.

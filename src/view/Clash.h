@@ -36,8 +36,8 @@ struct Clash {
 };
 
 /// The rows of the scene's first frame. Where shapes were asked: pairs that are not apart, the worst first. Else the
-/// largest overlap first, those of equal volume as they were found; self pairs last. Pairs of the same two bodies are
-/// one row.
+/// largest overlap first, then the smallest gap, those that are alike as they were found; self pairs last. Pairs of the
+/// same two bodies are one row.
 [[nodiscard]] std::vector<Clash> clashesOf(const ViewScene& scene);
 
 /// The pair at one place of the first frame's, without number and GUID.

@@ -194,7 +194,7 @@ TEST(InfoOfAScene, HasContactDistancesAndWhatLiesOutsideOfTheRegion) {
   const std::string begin =
       "<Node name='root'><CollisionPipeline/><BruteForceBroadPhase box='-1 -1 -1 1 1 "
       "1'/><BVHNarrowPhase/><CollisionResponse/>"
-      "<BVHNarrowPhase/><CollisionResponse/><MinProximityIntersection alarmDistance='0.5'/>"
+      "<MinProximityIntersection alarmDistance='0.5'/>"
       "<Node name='A'><MechanicalObject position='0 0 0'/><SphereCollisionModel name='s'/></Node>"
       "<Node name='B'><MechanicalObject position='9 0 0'/><SphereCollisionModel name='s'";
   const ProgramRun plain = runProgram({"info", folder.write("plain.scn", begin + "/></Node></Node>")});

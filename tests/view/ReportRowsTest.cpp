@@ -367,5 +367,16 @@ TEST(Report, OfASofaSceneIsOfBoxesAndSaysWhichOfThemOnlyLieWithinTheDistance) {
                 "none were tested; --exact tests them");
 }
 
+TEST(Report, HasTheNearestFirstOfBoxesThatOnlyLieWithinADistance) {
+  const TempFolder folder;
+  const std::string input = folder.write("boxes.csv", "0,0,0,1,1,1\n0,0,4,1,1,5\n0,2,0,1,3,1\n");
+  const fs::path out = folder.path() / "out";
+  expectSuccess(runProgram({"report", input, "--boxes", "--distance", "3", "-o", out}));
+  const auto rows = rowsOf(out);
+  ASSERT_EQ(rows.size(), 3U);
+  EXPECT_EQ(rows[0].at("overlap_y"), "-1");
+  EXPECT_EQ(rows[1].at("overlap_z"), "-3");
+}
+
 }  // namespace
 }  // namespace allpairs::test

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "mesh/Assemblies.h"
 
+#include "input/ReadScope.h"
 #include "input/UniqueNames.h"
 
 namespace allpairs::scene {
@@ -41,7 +42,7 @@ Branching branchingOf(const std::vector<NestedNode>& nodes, const std::vector<bo
 
 }  // namespace
 
-std::vector<std::string> assembliesOf(const std::vector<NestedNode>& nodes) {
+std::vector<std::string> assembliesOf(const std::vector<NestedNode>& nodes, ReadScope& scope) {
   std::vector<std::string> assemblies(nodes.size());
   const std::vector<bool> shows = whichShow(nodes);
   const Branching branching = branchingOf(nodes, shows);
@@ -53,6 +54,7 @@ std::vector<std::string> assembliesOf(const std::vector<NestedNode>& nodes) {
       assemblies[i] = names.unique(nodes[i].name.empty() ? "node" : nodes[i].name);
     else if (nodes[i].parent != kNoNode)
       assemblies[i] = assemblies[nodes[i].parent];
+    scope.take(assemblies[i].size());
   }
   return assemblies;
 }

@@ -7,6 +7,8 @@
 
 namespace allpairs::scene {
 
+class ReadScope;
+
 /// A node of a file whose objects are nested.
 struct NestedNode {
   static constexpr std::size_t kNoParent = static_cast<std::size_t>(-1);
@@ -20,6 +22,6 @@ struct NestedNode {
 /// object are.
 ///
 /// Cost: linear in the nodes.
-[[nodiscard]] std::vector<std::string> assembliesOf(const std::vector<NestedNode>& nodes);
+[[nodiscard]] std::vector<std::string> assembliesOf(const std::vector<NestedNode>& nodes, ReadScope& scope);
 
 }  // namespace allpairs::scene

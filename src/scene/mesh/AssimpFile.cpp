@@ -189,7 +189,7 @@ class NodeReader {
   }
 
   void nameAssemblies() {
-    const std::vector<std::string> assemblies = assembliesOf(m_nodes);
+    const std::vector<std::string> assemblies = assembliesOf(m_nodes, m_scope);
     for (std::size_t i = 0; i < m_objects.size(); ++i) m_objects[i].assembly = assemblies[m_places[i]];
   }
 

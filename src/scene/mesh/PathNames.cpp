@@ -105,11 +105,16 @@ class PathNaming {
       groups.pop_back();
       for (const std::size_t item : group.items) m_levels[item] = group.levels;
       if (group.levels == kMostLevels || areInOnePlace(group.items)) continue;
-      std::map<std::string_view, std::vector<std::size_t>> parts;
+      std::map<std::size_t, std::vector<std::size_t>> ofNodes;  // whose labels, which may be long, are compared once
       for (const std::size_t item : group.items) {
         if (m_next[item] == kNoNode) continue;  // all is said
-        parts[m_nodes.label(m_next[item])].push_back(item);
+        ofNodes[m_next[item]].push_back(item);
         m_next[item] = m_nodes.above(m_next[item]);
+      }
+      std::map<std::string_view, std::vector<std::size_t>> parts;
+      for (const auto& [node, items] : ofNodes) {
+        std::vector<std::size_t>& part = parts[m_nodes.label(node)];
+        part.insert(part.end(), items.begin(), items.end());
       }
       for (auto& [label, items] : parts) groups.push_back({std::move(items), group.levels + 1});
     }

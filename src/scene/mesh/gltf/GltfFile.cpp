@@ -89,7 +89,7 @@ class GltfNodeReader {
       push(open, m_document.indices(node, "children"), {.parent = world, .parentPlace = m_nodes.size()});
       noteNode(node, mesh.has_value(), entry.parentPlace);
     }
-    const std::vector<std::string> assemblies = assembliesOf(m_nodes);
+    const std::vector<std::string> assemblies = assembliesOf(m_nodes, m_document.scope());
     for (std::size_t i = 0; i < m_objects.size(); ++i) m_objects[i].assembly = assemblies[m_places[i]];
     nameByPath(m_objects, m_places, m_nodes, m_document.scope());
     if (std::ranges::none_of(m_objects, &MeshObject::hasElements)) blameExtensions();

@@ -122,7 +122,7 @@ void addSources(Table& table) {
                           "MeshTrianLoader", "MeshSTLLoader", "GridMeshCreator"})
     table[name] = {MeshLoader, name};
   for (const auto name : {"MeshXspLoader", "GIDMeshLoader", "StringMeshCreator", "VoxelGridLoader",
-                          "MeshTetraStuffingLoader", "MeshLoader"})
+                          "MeshTetraStuffingLoader", "MeshSTEPLoader", "MeshLoader"})
     table[name] = {UnknownLoader, name};
   table["SphereLoader"] = {SphereLoader, "SphereLoader"};
   for (const auto name : {"TransformEngine"}) table[name] = {TransformEngine, name};
@@ -179,7 +179,7 @@ std::size_t editsBetween(std::string_view a, std::string_view b) {
 }  // namespace
 
 std::string_view similarClass(std::string_view type) {
-  // No two classes of SOFA with names so long are so near to each other.
+  // Names of classes of SOFA that this reader does not need are shorter, or not so near.
   constexpr std::size_t kLeastLength = 10;
   constexpr std::size_t kMostEdits = 2;
   if (knownClasses().contains(type)) return {};

@@ -66,7 +66,8 @@ std::string doubtAboutName(const Component& component, Generation generation) {
            (component.type == "Include" ? "include" : "Node") + " meant?";
   const auto similar = similarClass(component.type);
   if (similar.empty()) return {};
-  return "SOFA has no component '" + component.type + "', and it is left out; is " + std::string{similar} + " meant?";
+  return "this reader knows no component '" + component.type + "', and leaves it out; is " + std::string{similar} +
+         " meant?";
 }
 
 void nameByClass(Node& node) {

@@ -144,9 +144,10 @@ void warnOf(const PipelineParts& parts, const Node& root, SceneDescription& scen
                               .subject = root.path(),
                               .reason = "the scene has no collision pipeline: SOFA detects nothing in it; all its "
                                         "models are tested against one another here"});
-  if (!parts.missing.empty())
-    scene.warnings.push_back(
-        remarkOn(*parts.component, "the pipeline lacks " + parts.missing + ": SOFA detects nothing with it"));
+  if (parts.missing.empty()) return;
+  const std::string who = parts.broadPhase == nullptr ? "SOFA" : "SOFA from 26.06 on";
+  scene.warnings.push_back(
+      remarkOn(*parts.component, "the pipeline lacks " + parts.missing + ": " + who + " detects nothing with it"));
 }
 
 PipelineDescription describePipeline(Evaluation& evaluation, const PipelineParts& parts, ModelList& models) {
