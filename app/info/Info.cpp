@@ -93,7 +93,7 @@ Row rowOf(std::size_t index, const ShownModel& shown) {
           boxText(model.box)};
 }
 
-/// The widths of the columns; of one that is left out 0.
+/// The widths of the columns: 0 for one that is left out.
 std::array<std::size_t, kColumns.size()> widthsOf(const std::vector<Row>& rows) {
   std::array<std::size_t, kColumns.size()> widths{};
   for (const Row& row : rows) {

@@ -116,9 +116,10 @@ class BodyMaker {
       if (path == m_paths.end()) return;
       part = path->second->empty() ? "/" : *path->second;
     }
-    if (source.id.empty() || !isBody)
+    if (m_grouping == Grouping::Assembly && !source.assemblyId.empty())
+      body.identity = source.assemblyId;
+    else if (source.id.empty() || !isBody)
       body.identity = m_fileIdentities[source.file] + '\n' + (hasPath ? source.path : part);
-    if (m_grouping == Grouping::Assembly && !source.assemblyId.empty()) body.identity = source.assemblyId;
     const std::string& name = m_scene.models[model]->getName();
     const std::size_t place = name.rfind(source.name);
     if (place != std::string::npos) body.name = name.substr(0, place) + part;

@@ -24,11 +24,19 @@ bool isNew(const Component& component) {
 /// Names that SOFA 24.12 and 26.06 dropped (its Sofa.Helper, ComponentChange.cpp); those of collision models have a
 /// rule.
 bool isDropped(const Component& component) {
-  static constexpr std::array<std::string_view, 10> kDropped{
-      "DefaultPipeline", "DefaultContactManager",  "RuleBasedCollisionResponse", "MeshObjLoader", "Mesh", "RegularGrid",
-      "SparseGrid",      "SparseGridRamification", "SparseGridMultiple",         "IncrementalSAP"};
+  static constexpr std::array<std::string_view, 12> kDropped{"DefaultPipeline",
+                                                             "DefaultContactManager",
+                                                             "RuleBasedCollisionResponse",
+                                                             "MeshObjLoader",
+                                                             "Mesh",
+                                                             "RegularGrid",
+                                                             "SparseGrid",
+                                                             "SparseGridRamification",
+                                                             "SparseGridMultiple",
+                                                             "CylinderGrid",
+                                                             "SphereGrid",
+                                                             "IncrementalSAP"};
   if (std::ranges::find(kDropped, component.type) != kDropped.end()) return true;
-  if (component.type == "CylinderGrid" || component.type == "SphereGrid") return true;
   return isModel(component) && !component.what.name.empty() && !component.type.ends_with("CollisionModel") &&
          component.type.find("Bullet") == std::string::npos && !component.type.starts_with("Cuda");
 }
@@ -61,9 +69,10 @@ std::string doubtAboutName(const Component& component, Generation generation) {
   if (generation == Generation::Sofa26 && isDropped(component))
     return "SOFA 26.12 has no component of the name '" + component.type + "' any more; it is read as before here";
   if (component.kind() != ComponentKind::Other) return {};
-  if (component.type == "node" || component.type == "Include" || component.type == "NODE")
+  const bool isInclude = component.type == "Include";
+  if (isInclude || component.type == "node" || component.type == "NODE")
     return "SOFA has no component '" + component.type + "', and what is in it is left out; is " +
-           (component.type == "Include" ? "include" : "Node") + " meant?";
+           (isInclude ? "include" : "Node") + " meant?";
   const auto similar = similarClass(component.type);
   if (similar.empty()) return {};
   return "this reader knows no component '" + component.type + "', and leaves it out; is " + std::string{similar} +
