@@ -200,10 +200,7 @@ void DistributedSearch::searchCell(std::span<CellBoxes> sets, const partition::C
                                    partition::CellSearch& search) {
   const BoxRecords& first = sets.front().records;
   const BoxRecords& second = sets.back().records;
-  const auto take = [&](std::span<const Pair> pairs) {
-    add(
-        pairs, [&first](std::size_t i) { return first.id(i); }, [&second](std::size_t i) { return second.id(i); });
-  };
+  const auto take = [&](std::span<const Pair> pairs) { add(pairs, first.ids(), second.ids()); };
   const bool isOneSet = sets.size() == 1;
   search.setFilter({.first = first.bits(), .second = isOneSet ? FilterBits() : second.bits()});
   if (isOneSet && m_isCount) search.stream(first.boxes(), cell, take);
@@ -270,8 +267,8 @@ void DistributedSearch::searchBetween(OverlapOptions options, const BoxView& fir
 void DistributedSearch::searchChunk(const BoxRecords& wide, std::size_t set, std::span<const char> isWideHere) {
   const LocalSet& local = m_sets[m_sets.size() - 1 - set];
   const bool isOneSet = m_sets.size() == 1;
-  const auto wideId = [&wide](std::size_t i) { return wide.id(i); };
-  const auto localId = [&local](std::size_t i) { return local.firstId + i; };
+  const auto wideId = wide.ids();
+  const auto localId = [begin = local.firstId](std::size_t i) { return begin + i; };
   const auto withLimit = [&](OverlapOptions options) {
     // Pairs are found that are another's too: each twice, and a box with itself, but for what rounding makes of margins.
     constexpr std::uint64_t kMost = std::numeric_limits<std::uint64_t>::max();

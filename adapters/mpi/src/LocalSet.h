@@ -47,6 +47,17 @@ void packBoxes(const LocalSet& set, std::span<const std::uint32_t> indices, Reco
 /// Boxes that came from other ranks.
 class BoxRecords {
  public:
+  /// The numbers of the boxes by index, for loops that read many of them.
+  class Ids {
+   public:
+    Ids(const std::uint64_t* words, std::size_t step) : m_words(words), m_step(step) {}
+    std::uint64_t operator()(std::size_t i) const noexcept { return m_words[i * m_step]; }
+
+   private:
+    const std::uint64_t* m_words;
+    std::size_t m_step;
+  };
+
   explicit BoxRecords(RecordLayout layout) : m_layout(layout), m_otherWords(layout.otherWords()) {}
 
   /// What came; unpack() is called when it is here.
@@ -58,7 +69,7 @@ class BoxRecords {
   [[nodiscard]] FilterBits bits() const;
 
   [[nodiscard]] std::size_t size() const noexcept { return m_packed.bounds.size() / m_layout.boundsWords(); }
-  [[nodiscard]] std::uint64_t id(std::size_t i) const noexcept { return m_packed.others[i * m_otherWords]; }
+  [[nodiscard]] Ids ids() const noexcept { return {m_packed.others.data(), m_otherWords}; }
 
  private:
   PackedBoxes m_packed;

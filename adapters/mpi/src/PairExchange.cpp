@@ -142,8 +142,8 @@ void PairExchange::start(std::span<const std::uint64_t> ends, bool areIdsShort) 
   m_end = 0;
 }
 
-/// Finds the rank of a first box.
 void PairExchange::turnTo(std::uint64_t first) {
+  if (goesToTheSame(first)) return;
   m_to = static_cast<std::size_t>(std::upper_bound(m_ends.begin(), m_ends.end(), first) - m_ends.begin());
   m_begin = m_to == 0 ? 0 : m_ends[m_to - 1];
   m_end = m_ends[m_to];

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -27,17 +28,12 @@ class PairExchange {
   /// takeInOrder() looks at all together.
   template <class FirstId, class SecondId>
   void add(std::span<const Pair> pairs, const FirstId& firstId, const SecondId& secondId) {
-    for (const Pair pair : pairs) {
-      const std::uint64_t first = firstId(pair.first);
-      const std::uint64_t second = secondId(pair.second);
-      if (first < m_begin || first >= m_end) turnTo(first);
-      std::vector<std::uint64_t>& words = m_outgoing[m_to];
-      if (m_areIdsShort) {
-        words.push_back(first << 32 | second);
-      } else {
-        words.push_back(first);
-        words.push_back(second);
-      }
+    for (auto begin = pairs.begin(); begin != pairs.end();) {
+      turnTo(firstId(begin->first));
+      const auto isElsewhere = [&](Pair pair) { return !goesToTheSame(firstId(pair.first)); };
+      const auto end = std::find_if(begin, pairs.end(), isElsewhere);
+      append({begin, end}, firstId, secondId);
+      begin = end;
     }
   }
 
@@ -48,7 +44,26 @@ class PairExchange {
   [[nodiscard]] std::vector<IdPair> takeInOrder();
 
  private:
+  /// Makes the rank of a first box the one that pairs go to.
   void turnTo(std::uint64_t first);
+
+  [[nodiscard]] bool goesToTheSame(std::uint64_t first) const noexcept { return m_begin <= first && first < m_end; }
+
+  template <class FirstId, class SecondId>
+  void append(std::span<const Pair> pairs, const FirstId& firstId, const SecondId& secondId) {
+    std::vector<std::uint64_t>& words = m_outgoing[m_to];
+    const std::size_t before = words.size();
+    words.resize(before + pairs.size() * (m_areIdsShort ? 1 : 2));
+    std::uint64_t* to = words.data() + before;
+    if (m_areIdsShort) {
+      for (const Pair pair : pairs) *to++ = firstId(pair.first) << 32 | secondId(pair.second);
+      return;
+    }
+    for (const Pair pair : pairs) {
+      *to++ = firstId(pair.first);
+      *to++ = secondId(pair.second);
+    }
+  }
 
   const Ranks& m_ranks;
   bool m_areIdsShort = true;
