@@ -49,7 +49,7 @@ mesh that does not move, give the same file twice.
 
 With -o FILE the candidates are written beside FILE as NumPy arrays (m, 2), uint32:
 BASE.vertex_face.npy, BASE.edge_edge.npy and BASE.face_face.npy; and the elements that
-they index, BASE.edges.npy and BASE.faces.npy. BASE is FILE without its extension.
+they index, BASE.edges.npy and BASE.faces.npy. BASE is FILE without .json or .txt.
 
 Examples:
   allpairs elements cloth_92.ply cloth_93.ply

@@ -21,7 +21,7 @@ struct Progress {
 /// Half of the machine's memory, in bytes; the greatest number where the system does not tell.
 [[nodiscard]] std::uint64_t halfOfMemory() noexcept;
 
-/// Which SOFA a scene is read as: they differ in the edges of grids and in the names of components without one.
+/// Which SOFA a scene is read as: docs/scenes.md has the differences.
 enum class SofaVersion {
   FromScene,  ///< By the components that the scene names: Sofa2612 where one is known to that alone.
   Sofa2006,   ///< 20.06 and before.
