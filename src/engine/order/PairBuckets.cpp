@@ -10,11 +10,9 @@ namespace {
 /// the scratch memory (dense_benchmark).
 constexpr unsigned kLeastKeyBits = 8;
 
-/// Pairs are written to all buckets in turn: the places where the next ones go stay in the second-level cache.
+/// Buckets at most, and boxes whose pairs are counted: where the next pair of each goes stays in the second-level cache
+/// (dense_benchmark).
 constexpr std::size_t kMostBuckets = 4096;
-
-/// The counts of so many boxes, and the places of their next pairs, stay in the second-level cache (dense_benchmark).
-constexpr unsigned kCountedBits = 12;
 
 }  // namespace
 
@@ -22,7 +20,7 @@ PairOrder::PairOrder(std::size_t firsts, std::size_t seconds, Order order, std::
     : bySecond(order == Order::BySecond) {
   const std::size_t keys = std::max<std::size_t>(bySecond ? seconds : firsts, 1);
   const std::size_t others = std::max<std::size_t>(bySecond ? firsts : seconds, 1);
-  isCounted = threads == 1 && std::max(keys, others) <= std::size_t{1} << kCountedBits;
+  isCounted = threads == 1 && std::max(keys, others) <= kMostBuckets;
   const auto bitsOf = [](std::size_t size) { return static_cast<unsigned>(std::bit_width(size - 1)); };
   allKeyBits = bitsOf(keys);
   keyBits = isCounted ? allKeyBits : std::max(kLeastKeyBits, bitsOf((keys - 1) / kMostBuckets + 1));
