@@ -72,9 +72,11 @@ void BoxReader::setOrigin(const std::array<double, 3>& origin) noexcept {
 
 BlockRead BoxReader::read(const BoxList& boxes, LaneBlock& block) const {
   if (boxes.size == 0) return {};
-  BlockRead result = readListed(boxes, block);
-  result.exact &= !m_isMoved;
-  return result;
+  if (m_ids == nullptr) return readBoxes(boxes, block);
+  if (boxes.ids == nullptr) return readBoxes({m_ids + boxes.begin, 0, boxes.size}, block);
+  std::array<std::uint32_t, kFanOut> ids;
+  for (std::size_t lane = 0; lane < boxes.size; ++lane) ids[lane] = m_ids[boxes[lane]];
+  return readBoxes({ids.data(), 0, boxes.size}, block);
 }
 
 bool BoxReader::readAll(const LaneList& list) const {
@@ -94,14 +96,6 @@ bool BoxReader::readAll(const LaneList& list) const {
   return exact;
 }
 
-BlockRead BoxReader::readListed(const BoxList& boxes, LaneBlock& block) const {
-  if (m_ids == nullptr) return readBoxes(boxes, block);
-  if (boxes.ids == nullptr) return readBoxes({m_ids + boxes.begin, 0, boxes.size}, block);
-  std::array<std::uint32_t, kFanOut> ids;
-  for (std::size_t lane = 0; lane < boxes.size; ++lane) ids[lane] = m_ids[boxes[lane]];
-  return readBoxes({ids.data(), 0, boxes.size}, block);
-}
-
 BlockRead BoxReader::readBoxes(const BoxList& boxes, LaneBlock& block) const {
   LaneBlock all;
   LaneBlock& target = boxes.size == kFanOut ? block : all;
@@ -117,6 +111,7 @@ BlockRead BoxReader::readBoxes(const BoxList& boxes, LaneBlock& block) const {
     result.emptyLanes &= (1U << boxes.size) - 1U;
   }
   if (m_region) result.emptyLanes |= outsideRegion(boxes);
+  result.exact &= !m_isMoved;
   return result;
 }
 

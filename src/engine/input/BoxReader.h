@@ -94,7 +94,6 @@ class BoxReader {
   void prefetch(std::size_t i) const noexcept { prefetchBox(*m_boxes, idOf(i)); }
 
  private:
-  BlockRead readListed(const BoxList& boxes, LaneBlock& block) const;
   BlockRead readBoxes(const BoxList& boxes, LaneBlock& block) const;
   template <class T>
   BlockRead readSixteen(const BoxView::Corners<T>& corners, const BoxList& boxes, LaneBlock& block) const;
