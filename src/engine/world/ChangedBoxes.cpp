@@ -23,9 +23,8 @@ void ChangedBoxes::gather(std::span<const BoxId> changed, const WorldForest& for
   if (from.size() == 0) return;
   const BvhView& source = from.view();
   const std::size_t words = (from.places() + 63) / 64;
-  // Marks left by a call that threw.
-  if (std::exchange(m_marking, true)) std::fill(m_marked.begin(), m_marked.end(), std::uint64_t{0});
-  if (m_marked.size() < words) m_marked.resize(words + words / 4, 0);
+  if (m_marked.capacity() < words) m_marked.reserve(words + words / 4);
+  m_marked.assign(words, 0);
   for (const BoxId id : changed) {
     const std::uint32_t place = forest.placeIn(from, id);
     if (place == BoxHome::kNowhere) continue;
@@ -35,10 +34,7 @@ void ChangedBoxes::gather(std::span<const BoxId> changed, const WorldForest& for
   m_levels.reset(std::max(m_levels.capacity(), kFanOut * (m_size + m_size / 4)));
   m_levels.resize(0);
   m_sourceBlock = static_cast<std::size_t>(-1);
-  for (std::size_t word = 0; word < words; ++word) {
-    forEachBit(std::exchange(m_marked[word], 0), [&](std::size_t bit) { append(source, word * 64 + bit); });
-  }
-  m_marking = false;
+  forEachBit(m_marked, [&](std::size_t place) { append(source, place); });
   m_levels.boundAll(*m_kernels, executor);
 }
 

@@ -35,7 +35,6 @@ class ChangedBoxes {
 
   const Kernels* m_kernels;
   std::pmr::vector<std::uint64_t> m_marked;  ///< A bit for each place of a changed box.
-  bool m_marking = false;                    ///< Not all of them have been read.
   BvhLevels m_levels;
   std::size_t m_size = 0;
   std::size_t m_next = 0;         ///< Where the next box goes.
