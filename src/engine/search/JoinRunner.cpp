@@ -54,9 +54,9 @@ std::pair<double, double> JoinRunner::partnersPerBox(const Job& job) {
 void JoinRunner::run(const Job& job, Executor& executor) {
   const std::size_t threads = executor.concurrency();
   // Lists are made for all leaf blocks of a node at once.
-  const std::size_t unit = job.isFlat || job.lists.empty() ? 1 : kFanOut;
-  const TaskCut cut = job.isFlat ? TaskCut::ofRows(job.units, job.flat.columns.size, threads)
-                                 : TaskCut::ofLeaves((job.units + unit - 1) / unit, job.firstLarge / unit, threads);
+  const std::size_t unit = job.flat || job.lists.empty() ? 1 : kFanOut;
+  const TaskCut cut = job.flat ? TaskCut::ofRows(job.units, job.flat->columns.size, threads)
+                               : TaskCut::ofLeaves((job.units + unit - 1) / unit, job.firstLarge / unit, threads);
   m_segments.resize(cut.tasks());
   const auto beginOf = [&](std::size_t task) {
     return task == cut.tasks() ? job.units : std::min(cut.begin(task) * unit, job.units);
@@ -80,8 +80,8 @@ std::uint64_t JoinRunner::runWhole(const Job& job, Worker& worker) const {
 
 void JoinRunner::runPart(const Job& job, std::size_t begin, std::size_t end, Worker& worker) const {
   if (begin == end) return;
-  if (job.isFlat) {
-    FlatSearch part = job.flat;
+  if (job.flat) {
+    FlatSearch part = *job.flat;
     part.rowBegin = begin;
     part.rowEnd = end;
     part.lists = worker.lists;

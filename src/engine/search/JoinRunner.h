@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -34,8 +35,8 @@ class JoinRunner {
     /// If set, by worker: where the partners of each box are listed, instead of giving hits to the sink.
     std::span<NeighborLists> lists = {};
 
-    bool isFlat = false;  ///< Whether to run `flat` instead of a join.
-    FlatSearch flat;
+    /// If set, rows of this search are run, and not a join.
+    std::optional<FlatSearch> flat = {};
 
     static Job ofJoin(const BvhView& first, const BvhView& second);
     static Job ofSelfJoin(const BvhView& bvh);

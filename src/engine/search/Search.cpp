@@ -161,13 +161,12 @@ Search::Plan Search::planOf(const Sets& sets, const OverlapOptions& options, Ord
 void Search::planFlat(const Readers& readers, Plan& plan) {
   m_columns.require(LaneList::tilesFor(readers.columns(plan.order).size()));
   if (!readers.one) m_rows.require(LaneList::tilesFor(readers.rows(plan.order).size()));
-  FlatSearch& flat = plan.job.flat;
+  FlatSearch& flat = plan.job.flat.emplace();
   flat.columns.tiles = m_columns.data();
   flat.rows.tiles = m_rows.data();
   const bool exact = readers.readAll(plan.order, flat);
   plan.sink.test.requireExactTestInDoubt(!exact, readers.first.origin());
   plan.sink.side = plan.order == Order::BySecond ? PairSide::RowSecond : PairSide::RowFirst;
-  plan.job.isFlat = true;
   plan.job.units = flat.rowEnd;
 }
 
@@ -236,12 +235,12 @@ std::span<const Pair> Search::find(const Sets& sets, const OverlapOptions& optio
 }
 
 std::span<const Pair> Search::findPlanned(Plan& plan, const PairRoom* room) {
-  if (!plan.job.isFlat && (findInLists(plan, room) || findInBuckets(plan, room))) return m_pairs;
+  if (!plan.job.flat && (findInLists(plan, room) || findInBuckets(plan, room))) return m_pairs;
   expectPairs(plan);
   expectAmply(plan);
   run(plan, *m_executor);
   concatenate(room);
-  if (!plan.job.isFlat) sortPairs(plan);
+  if (!plan.job.flat) sortPairs(plan);
   return m_pairs;
 }
 
@@ -282,7 +281,7 @@ std::vector<Pair> Search::take(const Sets& sets, const OverlapOptions& options) 
 }
 
 bool Search::comeInOrder(const Plan& plan) const {
-  return (plan.job.isFlat || plan.order == Order::Unordered) && m_executor->concurrency() == 1;
+  return (plan.job.flat || plan.order == Order::Unordered) && m_executor->concurrency() == 1;
 }
 
 void Search::runInto(Plan& plan, FunctionRef<void(std::span<const Pair>)> take) {
@@ -333,10 +332,10 @@ bool Search::findInLists(Plan& plan, const PairRoom* room) {
 std::size_t Search::likelyPartners(const JoinRunner::Job& job, std::size_t rows, Columns kept, bool areCounted) {
   const bool keepsAll = kept == Columns::All || kept == Columns::Others;
   double partners = 0.0;  // of a row
-  if (job.isFlat) {
-    const double share = shareOfOverlaps(*m_kernels, job.flat);
+  if (job.flat) {
+    const double share = shareOfOverlaps(*m_kernels, *job.flat);
     if (share <= kMuchOrdered) return 0;
-    partners = share * static_cast<double>(job.flat.columns.size);
+    partners = share * static_cast<double>(job.flat->columns.size);
   } else {
     if (job.units == 0 || std::max(job.first->depth, job.second->depth) < 2) return 0;
     if (job.units * kFanOut < rows / kMostRowsPerBox) return 0;
@@ -350,7 +349,7 @@ std::size_t Search::likelyPartners(const JoinRunner::Job& job, std::size_t rows,
 }
 
 void Search::expectPairs(Plan& plan) {
-  if (plan.job.isFlat || plan.job.units < kFanOut) return;
+  if (plan.job.flat || plan.job.units < kFanOut) return;
   const std::size_t workers = m_runner.start(plan.sink, *m_executor);
   if (m_runner.sink(0).pairs().capacity() >= plan.sink.likelyPairs) return;
   const double partners = m_runner.partnersPerBox(plan.job).first * static_cast<double>(plan.job.units * kFanOut);
@@ -372,13 +371,13 @@ bool Search::listPartners(Plan& plan, Columns kept) {
   const bool bySecond = plan.order == Order::BySecond;
   const std::size_t rows = (bySecond ? sets.second : sets.first).size();
   JoinRunner::Job job = plan.job;
-  if (bySecond && !sets.one && !job.isFlat) {
+  if (bySecond && !sets.one && !job.flat) {
     job = JoinRunner::Job::ofJoin(*plan.job.second, *plan.job.first);
     job.firstLarge = m_second.firstLarge() / kFanOut;
   }
   const std::size_t likely = likelyPartners(job, rows, kept, orderOf(plan).isCounted);
   if (likely == 0) return false;
-  job.flat.tested = kept;
+  if (job.flat) job.flat->tested = kept;
   m_lists.start(rows, (bySecond ? sets.first : sets.second).size(), workers, likely);
   m_lists.select(kept, bySecond ? PairSide::RowSecond : PairSide::RowFirst, plan.sink);
   job.lists = m_lists.ofWorkers();

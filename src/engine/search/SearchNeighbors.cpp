@@ -70,10 +70,10 @@ NeighborsView Search::findNeighbors(const Sets& sets, const OverlapOptions& opti
     return {m_rowsFound.offsets, m_rowsFound.indices};
   }
   Plan plan = planOf(sets, options, Order::ByFirst);
-  if (!listRows(plan, kind, room) && (plan.job.isFlat || !bucketRows(plan, kind, room))) {
+  if (!listRows(plan, kind, room) && (plan.job.flat || !bucketRows(plan, kind, room))) {
     run(plan, *m_executor);
     concatenate(nullptr);
-    if (!plan.job.isFlat) sortPairs(plan);
+    if (!plan.job.flat) sortPairs(plan);
     writePairsAsRows(sets, kind, room);
   }
   return {m_rowsFound.offsets, m_rowsFound.indices};
