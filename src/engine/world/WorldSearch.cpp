@@ -122,7 +122,7 @@ void WorldSearch::countTouched(const BoxStore& store) {
 /// each pair among those of the last step would then take longer than comparing the lists. Returns whether all worlds
 /// are searched, as a whole.
 bool WorldSearch::chooseWorlds(const BoxStore& store) {
-  const std::size_t most = store.size() / kShareOfChanged;
+  const std::size_t most = store.size() / kShareToJoinAll;
   if (store.touched().size() <= most && chooseChanged(store) <= most) return false;
   const std::size_t worlds = m_members.everyWorld() + 1;
   m_partly.clear();
@@ -144,7 +144,7 @@ std::size_t WorldSearch::chooseChanged(const BoxStore& store) {
   for (const std::uint32_t world : m_chosen) {
     const std::size_t size = m_members.size(world);
     const bool isJoinedWhole = store.isNumbered() && m_small.takes(world);
-    if (m_touchedIn[world] <= size / kShareOfChanged && !isJoinedWhole) {
+    if (m_touchedIn[world] <= size / kShareToJoinAll && !isJoinedWhole) {
       m_partly.push_back(world);
       boxes += m_touchedIn[world];
     } else {

@@ -23,7 +23,7 @@ namespace allpairs::engine {
 
 /// If at least one box in this many has changed, all boxes are joined: the join of changed boxes finds pairs from both
 /// sides (moving_benchmark --scene one-percent, and the others, in which all move).
-inline constexpr std::size_t kShareOfChanged = 4;
+inline constexpr std::size_t kShareToJoinAll = 4;
 
 /// The pairs of a world, or of each world of a store with world numbers (docs/decisions/0031): the hierarchies over its
 /// boxes, and what was found in them.
