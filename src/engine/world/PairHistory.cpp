@@ -18,11 +18,6 @@ namespace {
 /// one-percent).
 constexpr std::size_t kShortRow = 16;
 
-/// So many steps of a comparison are taken without branches (moving_benchmark).
-constexpr std::ptrdiff_t kFewSteps = 8;
-/// So many pairs that are in both lists are taken at once.
-constexpr std::ptrdiff_t kSamePairs = 4;
-
 /// Where the comparison of two ordered lists is: what is left of them, and where the next pairs go.
 struct Comparison {
   const Pair* old;
@@ -48,19 +43,21 @@ struct Comparison {
   }
 };
 
+/// Whether the next pairs of both lists are the same.
 bool areSame(const Pair* a, const Pair* b) noexcept {
   std::uint64_t difference = 0;
-  for (std::ptrdiff_t i = 0; i < kSamePairs; ++i)
+  for (std::size_t i = 0; i < kLinePairs; ++i)
     difference |= std::bit_cast<std::uint64_t>(a[i]) ^ std::bit_cast<std::uint64_t>(b[i]);
   return difference == 0;
 }
 
-/// The keys that follow are read before it is known which of them come next, and chosen by arithmetic.
+/// Some steps without branches: the keys that follow are read before it is known which of them come next, and chosen by
+/// arithmetic.
 template <Order order>
 void compareFew(Comparison& at) noexcept {
   std::uint64_t oldKey = keyOf(*at.old, order);
   std::uint64_t nowKey = keyOf(*at.now, order);
-  for (std::ptrdiff_t i = 0; i < kFewSteps; ++i) {
+  for (std::size_t i = 0; i < kLinePairs; ++i) {
     const std::uint64_t nextOld = keyOf(at.old[1], order);
     const std::uint64_t nextNow = keyOf(at.now[1], order);
     const bool isKept = oldKey <= nowKey;
@@ -71,18 +68,18 @@ void compareFew(Comparison& at) noexcept {
   }
 }
 
-/// Compares up to a part of the lists.
+/// Compares up to a part of the lists, a cache line of pairs at once (moving_benchmark).
 template <Order order>
 Comparison comparePart(Comparison at) noexcept {
-  for (std::size_t i = 0; i < kPartSize && at.old != at.oldEnd && at.now != at.nowEnd; i += kFewSteps) {
-    if (std::min(at.oldEnd - at.old, at.nowEnd - at.now) <= kFewSteps) {
+  for (std::size_t i = 0; i < kPartSize && at.old != at.oldEnd && at.now != at.nowEnd; i += kLinePairs) {
+    if (std::min(at.oldEnd - at.old, at.nowEnd - at.now) <= std::ptrdiff_t{kLinePairs}) {
       const std::uint64_t oldKey = keyOf(*at.old, order);
       const std::uint64_t nowKey = keyOf(*at.now, order);
       at.pass(oldKey <= nowKey, nowKey <= oldKey);
     } else if (areSame(at.old, at.now)) {
-      at.persisted = std::copy_n(at.now, kSamePairs, at.persisted);
-      at.old += kSamePairs;
-      at.now += kSamePairs;
+      at.persisted = std::copy_n(at.now, kLinePairs, at.persisted);
+      at.old += kLinePairs;
+      at.now += kLinePairs;
     } else {
       compareFew<order>(at);
     }
