@@ -57,6 +57,19 @@ TEST(PathName, IsNumberedWhereAllAreInOnePlace) {
   EXPECT_EQ(placedOf({kBolt, kBolt}), (std::vector<Placed>{{"bolt", ""}, {"bolt#2", ""}}));
 }
 
+TEST(PathName, HasNoNumberThatIsAnothersName) {
+  const Part numbered{"bolt#2", 1};
+  EXPECT_EQ(
+      placedOf({{"plate", 0, {kBolt, kBolt, numbered, kBolt}}}),
+      (std::vector<Placed>{
+          {"bolt", "plate/bolt"}, {"bolt#3", "plate/bolt#3"}, {"bolt#2", "plate/bolt#2"}, {"bolt#4", "plate/bolt#4"}}));
+  const Part door{"door", 0, {kBolt}};
+  EXPECT_EQ(
+      placedOf({{"car", 0, {door, door, {"door#2", 0, {kBolt}}}}}),
+      (std::vector<Placed>{
+          {"door/bolt", "car/door/bolt"}, {"door#3/bolt", "car/door#3/bolt"}, {"door#2/bolt", "car/door#2/bolt"}}));
+}
+
 TEST(PathName, NumbersNodesOfOneNameAmongThoseThatShowSomething) {
   const Part door{"door", 0, {kBolt}};
   EXPECT_EQ(placedOf({{"car", 0, {{"door", 0, {{"lamp"}}}, door, door}}, {"cart", 0, {door}}}),

@@ -214,6 +214,13 @@ TEST_F(SofaSurprises, GroupsAreRangesOrTheIntegersThatWordsStartWith) {
     EXPECT_THAT(outside.pairs, ElementsAre("/B/S - /A/S")) << word;
     EXPECT_THAT(outside.warnings, ElementsAre(HasSubstr("only the integer that it starts with is read, as in SOFA")));
   }
+  for (const char* group : {"0-3-0.5", "0-3.7"}) {
+    EXPECT_THAT(pairs(group, "2").pairs, IsEmpty());
+    const SofaAnswer outside = pairs(group, "4");
+    EXPECT_THAT(outside.pairs, ElementsAre("/B/S - /A/S"));
+    EXPECT_THAT(outside.warnings, ElementsAre("/A/S: group: of '" + std::string(group) +
+                                              "' only the integers that its numbers start with are read, as in SOFA"));
+  }
 }
 
 TEST_F(SofaSurprises, MappingsThatSofaDoesNotHaveMoveNothing) {

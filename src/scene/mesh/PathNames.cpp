@@ -9,17 +9,25 @@
 namespace allpairs::scene {
 namespace {
 
-constexpr std::size_t kNoNode = NestedNode::kNoParent;
+constexpr std::size_t kNowhere = NestedNode::kNoParent;
 constexpr std::size_t kMostLevels = 64;  // more than any assembly has; a chain of nodes may be as long as its file
 
 constexpr std::size_t kBytesPerItem = sizeof(NestedItem) + sizeof(PathName) + 200;  // with the nodes of maps
 
-/// Numbers what has the same name in the same place: bolt, bolt#2.
+/// Numbers what has the same name in the same place: bolt, bolt#2; bolt#3 where another is called bolt#2.
 class Numbering {
  public:
+  /// Notes a name: of all that are to be numbered, before the first of them is.
+  void note(std::size_t place, std::string_view name) { m_counts.try_emplace({place, name}, 0); }
+
   std::string labelOf(std::size_t place, std::string_view name) {
-    const std::size_t count = ++m_counts[{place, name}];
-    return count == 1 ? std::string(name) : std::string(name) + '#' + std::to_string(count);
+    std::size_t& count = m_counts[{place, name}];
+    if (++count == 1) return std::string(name);
+    std::string label;
+    for (;; ++count) {
+      label = std::string(name) + '#' + std::to_string(count);
+      if (!m_counts.contains({place, label})) return label;
+    }
   }
 
  private:
@@ -30,23 +38,26 @@ class Numbering {
 class NamedNodes {
  public:
   NamedNodes(const std::vector<NestedNode>& nodes, const std::vector<NestedItem>& items)
-      : m_nearest(nodes.size()), m_parents(nodes.size(), kNoNode), m_labels(nodes.size()) {
+      : m_nearest(nodes.size()), m_parents(nodes.size(), kNowhere), m_labels(nodes.size()) {
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       m_parents[i] = nearest(nodes[i].parent);
       m_nearest[i] = nodes[i].name.empty() ? m_parents[i] : i;
     }
     std::vector<bool> isUsed(nodes.size());
     for (const NestedItem& item : items) {
-      for (std::size_t at = nearest(item.node); at != kNoNode && !isUsed[at]; at = m_parents[at]) isUsed[at] = true;
+      for (std::size_t at = nearest(item.node); at != kNowhere && !isUsed[at]; at = m_parents[at]) isUsed[at] = true;
     }
     Numbering numbering;
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      if (isUsed[i]) numbering.note(m_parents[i], nodes[i].name);
+    }
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       if (isUsed[i]) m_labels[i] = numbering.labelOf(m_parents[i], nodes[i].name);
     }
   }
 
   /// A node, or the first above it that has a name.
-  [[nodiscard]] std::size_t nearest(std::size_t node) const { return node == kNoNode ? kNoNode : m_nearest[node]; }
+  [[nodiscard]] std::size_t nearest(std::size_t node) const { return node == kNowhere ? kNowhere : m_nearest[node]; }
   [[nodiscard]] std::size_t above(std::size_t node) const { return m_parents[node]; }
 
   /// The name, with its number.
@@ -75,11 +86,12 @@ class PathNaming {
   std::vector<PathName> names() {
     std::vector<PathName> names;
     Numbering numbering;
+    for (std::size_t i = 0; i < m_items.size(); ++i) numbering.note(m_places[i], m_items[i].name);
     for (std::size_t i = 0; i < m_items.size(); ++i) {
       PathName& name = names.emplace_back();
       name.name = join(i, m_levels[i], m_items[i].name);
       const std::string label = numbering.labelOf(m_places[i], m_items[i].name);
-      if (m_places[i] != kNoNode) name.path = join(i, kMostLevels, label);
+      if (m_places[i] != kNowhere) name.path = join(i, kMostLevels, label);
     }
     return names;
   }
@@ -107,7 +119,7 @@ class PathNaming {
       if (group.levels == kMostLevels || areInOnePlace(group.items)) continue;
       std::map<std::size_t, std::vector<std::size_t>> ofNodes;  // whose labels, which may be long, are compared once
       for (const std::size_t item : group.items) {
-        if (m_next[item] == kNoNode) continue;  // all is said
+        if (m_next[item] == kNowhere) continue;  // all is said
         ofNodes[m_next[item]].push_back(item);
         m_next[item] = m_nodes.above(m_next[item]);
       }
@@ -124,7 +136,7 @@ class PathNaming {
   std::string join(std::size_t item, std::size_t levels, std::string_view name) {
     std::vector<std::size_t> nodes;
     std::size_t size = name.size();
-    for (std::size_t at = m_places[item]; at != kNoNode && nodes.size() < levels; at = m_nodes.above(at)) {
+    for (std::size_t at = m_places[item]; at != kNowhere && nodes.size() < levels; at = m_nodes.above(at)) {
       nodes.push_back(at);
       size += m_nodes.label(at).size() + 1;
     }

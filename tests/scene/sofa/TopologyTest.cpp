@@ -79,10 +79,25 @@ TEST_F(SofaTopology, ContainersWithoutPointsDeriveEdges) {
   EXPECT_EQ(counts(onCorners("<TriangleSetTopologyContainer triangles='0 1 2'/>")), (Counts{8, 3, 1}));
 }
 
+TEST_F(SofaTopology, PointsThatOnlyElementsNameAreAtTheOriginAndThatIsSaid) {
+  const std::string begin =
+      "<CollisionPipeline/><BruteForceBroadPhase/><BVHNarrowPhase/><CollisionResponse/>\n"
+      "<DiscreteIntersection/><MeshTopology name='t' position='5 5 5  6 5 5  5 6 5' ";
+  const std::string end = "/><MechanicalObject/><TriangleCollisionModel/>";
+  const auto good = readIn(begin + "triangles='0 1 2'" + end);
+  EXPECT_THAT(good.warnings, testing::IsEmpty());
+  const auto bad = readIn(begin + "triangles='0 1 2  0 1 4'" + end);
+  EXPECT_THAT(onlyBox(bad), IsBox(Corners{0, 0, 0, 6, 6, 5}));
+  ASSERT_EQ(bad.warnings.size(), 1U);
+  EXPECT_EQ(bad.warnings[0].subject, "/t");
+  EXPECT_THAT(bad.warnings[0].reason, HasSubstr("it has positions of 3 points, and elements or a count that need 5"));
+}
+
 TEST_F(SofaTopology, BadIndicesAreNamed) {
   for (const auto bad : {"0 -1", "0 1.5", "0 5e9"})
     EXPECT_THAT(complaintIn(onCorners("<MeshTopology name='t' edges='" + std::string{bad} + "'/><LineModel/>")),
                 testing::AllOf(HasSubstr("MeshTopology 't'"), HasSubstr("edges")));
+  EXPECT_THAT(complaintIn(onCorners("<MeshTopology edges='0 -1'/><LineModel/>")), HasSubstr("has the index -1, which"));
 }
 
 // Grids.

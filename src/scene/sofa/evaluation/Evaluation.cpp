@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "sofa/evaluation/Evaluation.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -70,8 +72,7 @@ std::optional<Numbers> stateOutput(const State& state, std::string_view name) {
 
 Index toIndex(const Component& component, std::string_view name, double value) {
   if (!(value >= 0) || value > 4'000'000'000.0 || value != std::floor(value))
-    throw Unplaceable(component,
-                      std::string{name} + " has the index " + std::to_string(value) + ", which is no point's number");
+    throw Unplaceable(component, fmt::format("{} has the index {}, which is no point's number", name, value));
   return static_cast<Index>(value);
 }
 
@@ -222,9 +223,12 @@ std::optional<Numbers> Evaluation::written(const Component& component, std::stri
   if (!values && name == "group") {
     const auto word = bad;
     values = parseIntegers(text, bad, m_scope, WordEnd::Dropped);
+    const bool isRange = word.find('-', 1) != std::string::npos;
     if (values)
-      warn(component,
-           "group: of '" + word.substr(0, 40) + "' only the integer that it starts with is read, as in SOFA");
+      warn(component, "group: of '" + word.substr(0, 40) +
+                          (isRange ? "' only the integers that its numbers start with are"
+                                   : "' only the integer that it starts with is") +
+                          " read, as in SOFA");
   }
   if (!values && !isIndexList(name)) {
     const auto joined = bad;

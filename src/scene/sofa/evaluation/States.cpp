@@ -94,6 +94,10 @@ void takePoints(Evaluation& evaluation, const Component& component, State& state
   evaluation.takePoints(component, tooLate ? 0 : topology.pointCount);
   state.resize(tooLate ? 0 : topology.pointCount);
   for (std::size_t i = 0; i < state.positions.size(); ++i) state.positions[i] = topology.position(i);
+  if (const auto given = topology.given.positions.size(); given < state.positions.size())
+    evaluation.warn(*which, "it has positions of " + std::to_string(given) +
+                                " points, and elements or a count that need " + std::to_string(state.positions.size()) +
+                                ": the others are at the origin, as in SOFA");
   state.fromTopology = AffineMap{};
   state.pointsUnknown = topology.unknown;
 }

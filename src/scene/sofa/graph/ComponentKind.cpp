@@ -3,10 +3,9 @@
 
 #include <algorithm>
 #include <cctype>
-#include <numeric>
 #include <unordered_map>
-#include <utility>
-#include <vector>
+
+#include "input/Edits.h"
 
 namespace allpairs::scene::sofa {
 namespace {
@@ -155,25 +154,6 @@ bool isPluginModel(std::string_view type) {
   if (!type.ends_with("Model") || type.starts_with("Ogl") || has("Visual") || has("Splat")) return false;
   return has("Sphere") || has("Point") || has("Line") || has("Triangle") || has("Capsule") || has("Cylinder") ||
          has("OBB") || has("ConvexHull");
-}
-
-/// The number of letters to replace, leave out, put in or swap with their neighbors.
-std::size_t editsBetween(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> before;
-  std::vector<std::size_t> last;
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    before = std::exchange(last, row);
-    row[0] = i;
-    for (std::size_t k = 1; k <= b.size(); ++k) {
-      const bool isSame = a[i - 1] == b[k - 1];
-      row[k] = std::min({last[k] + 1, row[k - 1] + 1, last[k - 1] + (isSame ? 0 : 1)});
-      const bool areSwapped = i > 1 && k > 1 && a[i - 1] == b[k - 2] && a[i - 2] == b[k - 1];
-      if (areSwapped) row[k] = std::min(row[k], before[k - 2] + 1);
-    }
-  }
-  return row[b.size()];
 }
 
 }  // namespace

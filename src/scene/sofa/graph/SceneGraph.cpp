@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "sofa/graph/SceneGraph.h"
-#include "allpairs/scene/FileError.h"
 
 #include <algorithm>
+#include <array>
+#include <cstdlib>
+
+#include "allpairs/scene/FileError.h"
+#include "input/Edits.h"
 
 namespace allpairs::scene::sofa {
 namespace {
@@ -18,11 +22,52 @@ const std::filesystem::path& fileOf(const Place& place) {
   return place.file ? *place.file : unknown;
 }
 
+std::string_view withoutDigits(std::string_view name) {
+  while (!name.empty() && name.back() >= '0' && name.back() <= '9') name.remove_suffix(1);
+  return name;
+}
+
+/// Names of SOFA's that are near to another of its names, and no slips.
+bool isAnother(std::string_view written, std::string_view meant) {
+  static constexpr std::array<std::string_view, 2> kAlike{"rest_position", "reset_position"};
+  if (withoutDigits(written) == withoutDigits(meant)) return true;  // rotation and rotation2
+  return std::ranges::find(kAlike, written) != kAlike.end();
+}
+
+/// Whether a name is so near to another that it is likely to be meant: a letter off, of long ones two.
+bool isSlipOf(std::string_view meant, std::string_view written) {
+  constexpr std::size_t kLeastLength = 5;
+  constexpr std::size_t kLongName = 8;
+  const std::size_t length = std::min(written.size(), meant.size());
+  const std::size_t most = length < kLongName ? 1 : 2;
+  if (length < kLeastLength || std::max(written.size(), meant.size()) > length + most) return false;
+  return !isAnother(written, meant) && editsBetween(written, meant) <= most;
+}
+
 }  // namespace
 
 const std::string* Attributes::find(std::string_view name) const {
   const auto found = std::ranges::find(m_entries, name, &Attribute::name);
-  return found == m_entries.end() ? nullptr : &found->value;
+  if (found == m_entries.end()) {
+    noteInVain(name);
+    return nullptr;
+  }
+  m_uses[static_cast<std::size_t>(found - m_entries.begin())].isAskedFor = true;
+  return &found->value;
+}
+
+void Attributes::noteInVain(std::string_view name) const {
+  for (std::size_t i = 0; i < m_entries.size(); ++i) {
+    if (m_uses[i].meant.empty() && isSlipOf(name, m_entries[i].name)) m_uses[i].meant = name;
+  }
+}
+
+std::vector<LikelySlip> Attributes::slips() const {
+  std::vector<LikelySlip> slips;
+  for (std::size_t i = 0; i < m_entries.size(); ++i) {
+    if (!m_uses[i].isAskedFor && !m_uses[i].meant.empty()) slips.push_back({m_entries[i].name, m_uses[i].meant});
+  }
+  return slips;
 }
 
 std::string_view Attributes::value(std::string_view name, std::string_view standard) const {
@@ -31,11 +76,15 @@ std::string_view Attributes::value(std::string_view name, std::string_view stand
 }
 
 void Attributes::set(std::string_view name, std::string_view value) {
+  replace(name, value);
+  if (std::ranges::find(m_entries, name, &Attribute::name) != m_entries.end()) return;
+  m_uses.emplace_back();
+  m_entries.push_back({std::string{name}, std::string{value}});
+}
+
+void Attributes::replace(std::string_view name, std::string_view value) {
   const auto found = std::ranges::find(m_entries, name, &Attribute::name);
-  if (found != m_entries.end())
-    found->value = value;
-  else
-    m_entries.push_back({std::string{name}, std::string{value}});
+  if (found != m_entries.end()) found->value = value;
 }
 
 std::string Component::path() const {

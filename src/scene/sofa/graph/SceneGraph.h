@@ -26,7 +26,14 @@ struct Attribute {
   std::string value;
 };
 
-/// The attributes of an element, few and in the order of the file.
+/// An attribute that nothing has asked for, and the name that was asked for in vain and is nearly the same.
+struct LikelySlip {
+  std::string_view name;
+  std::string_view meant;
+};
+
+/// The attributes of an element, few and in the order of the file. What they are asked for is noted: by that a reader
+/// needs no list of the names that it knows, to tell a slip from a name that is not for it.
 class Attributes {
  public:
   [[nodiscard]] const std::string* find(std::string_view name) const;
@@ -35,11 +42,26 @@ class Attributes {
   [[nodiscard]] bool has(std::string_view name) const { return find(name) != nullptr; }
   void set(std::string_view name, std::string_view value);
 
+  /// Gives an attribute another value, if it is there.
+  void replace(std::string_view name, std::string_view value);
+
+  /// The attributes that are likely to be slips, as far as they have been asked for others until now.
+  [[nodiscard]] std::vector<LikelySlip> slips() const;
+
   [[nodiscard]] auto begin() const { return m_entries.begin(); }
   [[nodiscard]] auto end() const { return m_entries.end(); }
 
  private:
+  /// What is known of the one at the same place among the entries.
+  struct Use {
+    bool isAskedFor = false;
+    std::string meant{};
+  };
+
+  void noteInVain(std::string_view name) const;
+
   std::vector<Attribute> m_entries;
+  mutable std::vector<Use> m_uses;
 };
 
 struct Node;

@@ -282,8 +282,7 @@ void addComponent(Node& node, Element&& element, std::size_t order) {
   component->name = std::move(element.name);
   component->isNamed = element.isNamed;
   component->attributes = std::move(element.attributes);
-  for (const auto& [name, value] : element.replacements)
-    if (component->attributes.has(name)) component->attributes.set(name, value);
+  for (const auto& [name, value] : element.replacements) component->attributes.replace(name, value);
   component->place = element.place;
   component->node = &node;
   component->index = node.components.size();

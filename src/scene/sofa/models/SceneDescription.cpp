@@ -174,6 +174,15 @@ void warnOfNames(const Node& node, Generation generation, std::set<std::string>&
   for (const auto& child : node.children) warnOfNames(*child, generation, seen, scene);
 }
 
+/// Says which attributes of the components that were read are not read, and most likely mean one that is.
+void warnOfSlips(const Node& node, SceneDescription& scene) {
+  for (const auto& component : node.components)
+    for (const auto& [name, meant] : component->attributes.slips())
+      scene.warnings.push_back(remarkOn(*component, "its attribute '" + std::string{name}.substr(0, 80) +
+                                                        "' is not read; is '" + std::string{meant} + "' meant?"));
+  for (const auto& child : node.children) warnOfSlips(*child, scene);
+}
+
 /// The axis against gravity: 1 to 3 for x to z, below 0 for the other way; y where there is none.
 int upOf(const Node& root) {
   constexpr int kUp = 2;
@@ -205,6 +214,7 @@ SceneDescription describeScene(const std::filesystem::path& path, const ReadOpti
   }
   std::set<std::string> seen;
   warnOfNames(*root, generation, seen, scene);
+  warnOfSlips(*root, scene);
   for (const auto& [component, text] : evaluation.warnings()) scene.warnings.push_back(remarkOn(*component, text));
   for (const auto* component : modelsBelow(*root))
     if (!models.has(*component))
