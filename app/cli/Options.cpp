@@ -12,31 +12,30 @@
 #include <cmath>
 #include <string_view>
 
+#include "allpairs/Error.h"
+#include "allpairs/scene/ReadOptions.h"
 #include "cli/ExitStatus.h"
 #include "cli/Text.h"
 
 namespace allpairs::app {
 namespace {
 
-/// The two digits at the beginning of a text, or -1.
-int twoDigits(std::string_view text) {
-  int value = -1;
-  const std::string_view digits = text.substr(0, 2);
-  const auto [end, problem] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-  return digits.size() == 2 && digits.front() != '-' && problem == std::errc() && end == digits.data() + 2 ? value : -1;
+/// What is wrong with the value of --sofa; nothing for a version.
+std::string problemOfSofa(const std::string& text) {
+  try {
+    static_cast<void>(scene::sofaVersionOf(text));
+  } catch (const InvalidArgument& problem) {
+    return problem.what();
+  }
+  return {};
 }
 
-/// The version that stands for one of SOFA's, such as 24.06 or 24.06.00, because scenes are read alike by both.
-std::string readAlike(const std::string& text) {
-  constexpr int kLastOld = 2006, kFirstNew = 2206, kLastNew = 2612;
-  const std::string_view version = text;
-  const bool isForm =
-      (version.size() == 5 || (version.size() == 8 && version[5] == '.' && twoDigits(version.substr(6)) >= 0)) &&
-      version[2] == '.' && twoDigits(version) >= 0 && twoDigits(version.substr(3)) >= 0;
-  const int number = isForm ? 100 * twoDigits(version) + twoDigits(version.substr(3)) : kLastOld + 1;
-  if (number <= kLastOld) return "20.06";
-  if (number >= kFirstNew && number <= kLastNew) return "26.12";
-  throw UsageError("--sofa: '" + text + "' is neither a version up to 20.06 nor one from 22.06 to 26.12");
+/// What an option may be called, since nothing says by which name it was given: "-n, --boxes".
+std::string namesOf(const CLI::Option& option) {
+  std::string names = option.get_name(false, true);
+  for (std::size_t at = names.find(','); at != std::string::npos; at = names.find(',', at + 1))
+    names.insert(at + 1, " ");
+  return names;
 }
 
 }  // namespace
@@ -72,7 +71,7 @@ void addInputs(CLI::App& command, InputSettings& settings) {
                   "Read scenes as this SOFA does, up to 20.06 or from 22.06 on; by default as one that knows their "
                   "components")
       ->type_name("20.06|26.12")
-      ->transform(readAlike);
+      ->check(problemOfSofa);
   addReadLimits(command, settings.limits);
 }
 
@@ -103,8 +102,8 @@ void takeCount(CLI::Option& option) {
     double value = -1.0;
     const auto [end, problem] = std::from_chars(text.data(), last, value);
     if (problem != std::errc() || end != last || !(value >= 0.0) || std::floor(value) != value)
-      throw UsageError(option.get_name() + ": '" + text + "' is not a whole number from 0 on");
-    if (value > kMost) throw UsageError(option.get_name() + ": '" + text + "' is too large");
+      throw UsageError(namesOf(option) + ": '" + text + "' is not a whole number from 0 on");
+    if (value > kMost) throw UsageError(namesOf(option) + ": '" + text + "' is too large");
     return fmt::format("{:.0f}", value);
   });
 }

@@ -28,7 +28,7 @@ struct InputSettings {
   std::vector<std::string> searchRoots;
   bool partial = false;
   bool recursive = false;
-  std::string sofa{};  ///< As which SOFA to read, "20.06" or "26.12"; empty for the default.
+  std::string sofa{};  ///< As which SOFA to read, "24.06"; empty for the default.
   ReadLimits limits{};
   std::vector<std::filesystem::path> outputs{};  ///< Files that are written, which may be none that is read.
   const SpooledInputs* spooled = nullptr;        ///< Knows what paths that are temporary files stand for.

@@ -39,8 +39,7 @@ scene::ReadOptions readOptions(const InputSettings& settings, ProgressLine& line
   options.searchRoots.assign(settings.searchRoots.begin(), settings.searchRoots.end());
   options.partial = settings.partial;
   options.recursive = settings.recursive;
-  if (!settings.sofa.empty())
-    options.sofa = settings.sofa == "20.06" ? scene::SofaVersion::Sofa2006 : scene::SofaVersion::Sofa2612;
+  if (!settings.sofa.empty()) options.sofa = scene::sofaVersionOf(settings.sofa);
   options.progress = [&line](const scene::Progress& progress) {
     const std::string name = printable(progress.file.filename().string());
     if (progress.total < 2) return line.show("reading: " + name);

@@ -25,6 +25,8 @@ class SofaVersion:
     sofa_2006: SofaVersion
     sofa_2612: SofaVersion
 
+def sofa_version(version: str) -> SofaVersion: ...
+
 class ReadOptions:
     search_roots: list[str]
     partial: bool

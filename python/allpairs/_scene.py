@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Iterator
-from typing import TYPE_CHECKING, Literal, NamedTuple, Union
+from typing import TYPE_CHECKING, NamedTuple, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -18,9 +18,6 @@ if TYPE_CHECKING:
     from . import _files
 
 Path = Union[str, "os.PathLike[str]"]
-
-#: A version of SOFA whose scenes are read.
-Sofa = Literal["", "20.06", "26.12"]
 
 
 class Model(NamedTuple):
@@ -155,7 +152,7 @@ def load(
     *,
     search_roots: Iterable[Path] = (),
     partial: bool = False,
-    sofa: Sofa = "",
+    sofa: str = "",
     allow_outside: bool = False,
     max_memory: int = 0,
     recursive: bool = False,
@@ -170,7 +167,8 @@ def load(
     partial : bool
         Skip models that cannot be placed, with a remark, instead of raising.
     sofa : str
-        Read a scene as SOFA "20.06" or "26.12" does; by default the one that knows the scene's components.
+        Read a scene as this version of SOFA does, such as "24.06": up to "20.06", or from "22.06" to "26.12". By
+        default the one that knows the scene's components.
     allow_outside : bool
         Read files that the input names in any folder, not only in its own folder and the search roots.
     max_memory : int
@@ -188,14 +186,10 @@ def load(
     """
     from . import _reading
 
-    versions = {
-        "": _reading.SofaVersion.from_scene,
-        "20.06": _reading.SofaVersion.sofa_2006,
-        "26.12": _reading.SofaVersion.sofa_2612,
-    }
     options = _reading.ReadOptions()
     options.search_roots = _arguments.paths_of("search_roots", search_roots)
-    options.sofa = _arguments.choice("sofa", sofa, versions)
+    if sofa != "":
+        options.sofa = _reading.sofa_version(_arguments.text_of("sofa", sofa))
     options.max_memory = _arguments.whole("max_memory", max_memory)
     options.partial = _arguments.flag("partial", partial)
     options.allow_outside = _arguments.flag("allow_outside", allow_outside)
@@ -208,7 +202,7 @@ def detect(
     *,
     search_roots: Iterable[Path] = (),
     partial: bool = False,
-    sofa: Sofa = "",
+    sofa: str = "",
     allow_outside: bool = False,
     max_memory: int = 0,
     recursive: bool = False,

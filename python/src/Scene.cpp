@@ -52,7 +52,16 @@ std::optional<Bounds> regionOf(const LoadedScene& scene) {
   return Bounds{box->min[0], box->min[1], box->min[2], box->max[0], box->max[1], box->max[2]};
 }
 
+scene::SofaVersion sofaVersion(const std::string& version) {
+  try {
+    return scene::sofaVersionOf(version);
+  } catch (const InvalidArgument& problem) {
+    throw InvalidArgument(std::string("sofa: ") + problem.what());
+  }
+}
+
 void bindReadOptions(py::module_& module) {
+  module.def("sofa_version", &sofaVersion);
   py::enum_<scene::SofaVersion>(module, "SofaVersion")
       .value("from_scene", scene::SofaVersion::FromScene)
       .value("sofa_2006", scene::SofaVersion::Sofa2006)

@@ -222,11 +222,14 @@ TEST(InfoOfAScene, IsReadAsByTheVersionThatReadsAsTheOneThatIsGiven) {
   };
   const std::string before = read("20.06"), after = read("26.12");
   EXPECT_NE(before, after) << "a node without a name has a number, or none";
-  for (const char* version : {"19.12", "17.06.02"}) EXPECT_EQ(read(version), before) << version;
-  for (const char* version : {"22.06", "24.06", "24.06.01"}) EXPECT_EQ(read(version), after) << version;
-  for (const char* version : {"21.12", "27.06", "24.6", "24.06.1", "2406", "v24.06", "-1.06", "new"})
+  for (const char* version : {"19.12", "17.06.02", "v20.06.00", "15.09"}) EXPECT_EQ(read(version), before) << version;
+  for (const char* version : {"22.06", "24.06", "24.06.01", "v24.06"}) EXPECT_EQ(read(version), after) << version;
+  for (const char* version : {"21.12", "27.06"})
     expectFailure(runProgram({"info", scene, "--sofa", version}), kWrongUsage,
                   "is neither a version up to 20.06 nor one from 22.06 to 26.12");
+  for (const char* version : {"22.13", "23.07", "24.6", "24.06.1", "2406", "-1.06", "new", "16.00"})
+    expectFailure(runProgram({"info", scene, "--sofa", version}), kWrongUsage,
+                  "is no version of SOFA, which are called YY.06 and YY.12");
 }
 
 TEST(DetectScene, AMeshThatIsLeftOutIsNamedOnce) {

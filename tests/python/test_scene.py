@@ -165,9 +165,12 @@ def test_a_scene_without_a_pipeline_warns(tmp_path):
     assert [(warning.file, warning.line) for warning in scene.warnings] == [(str(path), 1)]
     assert scene.remarks == []
     assert scene.names == ["/tPointModel1"]
-    assert allpairs.load(path, sofa="26.12").names == ["/PointCollisionModel1"]
+    for version in ("26.12", "22.06", "24.12.00", "v25.06"):
+        assert allpairs.load(path, sofa=version).names == ["/PointCollisionModel1"]
+    for version in ("20.06", "19.12", "v17.06"):
+        assert allpairs.load(path, sofa=version).names == ["/tPointModel1"]
     with pytest.raises(ValueError, match="26.12"):
-        allpairs.load(path, sofa="27")
+        allpairs.load(path, sofa="27.06")
 
 
 def test_names_and_errors_of_files_that_are_no_utf8_show_their_bytes(tmp_path):

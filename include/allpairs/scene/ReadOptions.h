@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <string_view>
 #include <vector>
 
 #include "allpairs/StopFlag.h"
@@ -27,6 +28,11 @@ enum class SofaVersion {
   Sofa2006,   ///< 20.06 and before.
   Sofa2612,   ///< 22.06 to 26.12.
 };
+
+/// The one that reads scenes as a version of SOFA does, called by its year and month as in "24.06" or "v20.06.00".
+///
+/// Bad input: what is no version, and a version between the two or after them, throws InvalidArgument.
+[[nodiscard]] SofaVersion sofaVersionOf(std::string_view version);
 
 /// How input is read; the defaults suit files that name no others.
 struct ReadOptions {
