@@ -147,7 +147,7 @@ void Output::fail(const char* action) const {
   const int problem = errno;
   if (problem == EPIPE) throw ClosedPipe();
   const std::string name = m_target.empty() ? "standard output" : m_target.string();
-  throw FileError(name, std::string("cannot be ") + action + ": " + std::generic_category().message(problem));
+  throw FileError::ofSystem(name, std::string("cannot be ") + action, {problem, std::generic_category()});
 }
 
 }  // namespace allpairs::app

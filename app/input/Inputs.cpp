@@ -220,14 +220,12 @@ std::string boxMethod(std::optional<double> distance, const std::optional<Box>& 
   return text;
 }
 
-bool isSofaFile(const std::string& path) {
-  const std::string extension = lowerExtension(path);
-  return extension == ".scn" || extension == ".xml";
+bool isOfSofa(const scene::Scene& scene) {
+  return std::any_of(scene.inputs.begin(), scene.inputs.end(), scene::isSceneFile);
 }
 
-bool isOfSofa(const scene::Scene& scene) {
-  return std::any_of(scene.inputs.begin(), scene.inputs.end(),
-                     [](const std::filesystem::path& file) { return isSofaFile(file.string()); });
+bool isOfSofaAlone(const scene::Scene& scene) {
+  return !scene.files.empty() && std::all_of(scene.files.begin(), scene.files.end(), scene::isSceneFile);
 }
 
 std::string methodText(const scene::Scene& scene) {

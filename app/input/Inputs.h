@@ -64,11 +64,11 @@ void warnOfEmpty(const InputSettings& settings, const scene::EmptyBoxes& boxes, 
 /// How boxes are tested, in words.
 [[nodiscard]] std::string boxMethod(std::optional<double> distance, const std::optional<Box>& region);
 
-/// Whether a path is that of a SOFA scene.
-[[nodiscard]] bool isSofaFile(const std::string& path);
-
-/// Whether any of the inputs is a SOFA scene: its user knows SOFA's words, and asks what its broad phase finds.
+/// Whether any of the inputs is a SOFA scene: its user knows SOFA's words.
 [[nodiscard]] bool isOfSofa(const scene::Scene& scene);
+
+/// Whether all of them are: their user asks what SOFA's broad phase finds.
+[[nodiscard]] bool isOfSofaAlone(const scene::Scene& scene);
 
 /// How a scene's models are tested, in words: of a SOFA scene the method and its alarm distance, of meshes as boxes.
 [[nodiscard]] std::string methodText(const scene::Scene& scene);

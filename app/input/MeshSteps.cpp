@@ -74,7 +74,7 @@ std::vector<TriangleMesh> readTriangleMeshes(const InputSettings& settings, std:
 
 void refuseScenesAsFrames(const InputSettings& settings) {
   for (const std::string& path : settings.paths) {
-    if (!isSofaFile(path)) continue;
+    if (!scene::isSceneFile(path)) continue;
     throw UsageError(printable(shownPath(settings, path).string()) +
                      ": a SOFA scene is read as it is at its start, and has no frames; 'allpairs detect' finds the "
                      "pairs of the start, and sofa-trace-scene (docs/sofa.md) those of each step, run by SOFA");

@@ -40,7 +40,7 @@ class Folder {
  public:
   explicit Folder(const fs::path& place) : m_path((place / "allpairs-plan-XXXXXX").string()) {
     if (::mkdtemp(m_path.data()) == nullptr) {
-      throw FileError(place, "no folder can be made in it: " + std::generic_category().message(errno));
+      throw FileError::ofSystem(place, "no folder can be made in it", {errno, std::generic_category()});
     }
   }
   ~Folder() {

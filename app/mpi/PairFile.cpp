@@ -140,7 +140,7 @@ void PairFile::writeAt(std::uint64_t position, const void* bytes, std::size_t co
 }
 
 void PairFile::fail(const char* action, int problem) const {
-  throw FileError(m_target, std::string("cannot be ") + action + ": " + std::generic_category().message(problem));
+  throw FileError::ofSystem(m_target, std::string("cannot be ") + action, {problem, std::generic_category()});
 }
 
 }  // namespace allpairs::app

@@ -249,7 +249,7 @@ std::optional<Earlier> readEarlier(const std::string& path) {
   if (std::filesystem::is_directory(table, ignored)) throw FileError(table, "is a folder, not a file");
   std::ifstream stream(table, std::ios::binary);
   if (const int reason = errno; !stream && reason != ENOENT)
-    throw FileError(table, "cannot be opened: " + std::generic_category().message(reason));
+    throw FileError::ofSystem(table, "cannot be opened", {reason, std::generic_category()});
   if (!stream) throw FileError(path, "holds no report to compare with: there is no clashes.csv");
   const std::string text{std::istreambuf_iterator<char>(stream), {}};
   try {

@@ -107,7 +107,7 @@ void ReportFolder::makeFolder(const fs::path& folder) {
   if (!above.empty()) makeFolder(above);
   noteNew(folder);  // before it is there: there may be no memory then
   if (!fs::create_directory(folder, problem)) m_new.pop_back();
-  if (problem) throw FileError(folder, "cannot create this folder: " + problem.message(), problem);
+  if (problem) throw FileError::ofSystem(folder, "cannot create this folder", problem);
 }
 
 void ReportFolder::noteNew(const fs::path& path) {
@@ -156,7 +156,7 @@ void ReportFolder::commit(std::size_t pictures, bool hasPage) {
   fs::create_directory(m_folder / "pictures", problem);
   for (const auto& [from, to] : moves) {
     fs::rename(from, to, problem);
-    if (problem) throw FileError(to, "cannot be put in its place: " + problem.message(), problem);
+    if (problem) throw FileError::ofSystem(to, "cannot be put in its place", problem);
   }
   for (const fs::path& file : left) fs::remove(file, problem);
 }

@@ -139,7 +139,7 @@ bool hasShapes(const scene::Scene& scene) {
 /// Whether shapes are to be tested; the page says so where they are not because this program cannot.
 bool testsShapes(const scene::Scene& scene, ShapeTest test, view::ViewScene& to) {
   if (test != ShapeTest::WhereShapesAre) return test == ShapeTest::Always;
-  if (isOfSofa(scene) || !hasShapes(scene)) return false;
+  if (isOfSofaAlone(scene) || !hasShapes(scene)) return false;
   if (!hasExact()) to.method += "; shapes are not tested, because this program was built without FCL";
   return hasExact();
 }

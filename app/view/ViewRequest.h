@@ -14,7 +14,7 @@ namespace allpairs::app {
 /// Whether shapes are tested too.
 enum class ShapeTest : std::uint8_t {
   Never,
-  WhereShapesAre,  ///< If the input has anything but boxes, and is no SOFA scene, of which pairs of boxes are asked.
+  WhereShapesAre,  ///< If the input has anything but boxes; of SOFA scenes alone, pairs of boxes are asked.
   Always,
 };
 

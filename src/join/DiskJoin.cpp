@@ -131,14 +131,14 @@ void DiskJoin::openFolder() {
 bool DiskJoin::tryToOpenFolder() {
   std::error_code problem;
   fs::create_directory(m_options.work, problem);  // none above it: a folder of that name is likely mistyped
-  if (problem) throw FileError(m_options.work, "cannot be made: " + problem.message(), problem);
+  if (problem) throw FileError::ofSystem(m_options.work, "cannot be made", problem);
   const std::vector<std::string> names = scene::folderNames(m_options.work, problem);
   if (problem == std::errc::no_such_file_or_directory) return false;
-  if (problem) throw FileError(m_options.work, "cannot be read: " + problem.message(), problem);
+  if (problem) throw FileError::ofSystem(m_options.work, "cannot be read", problem);
   const bool isOurs = std::find(names.begin(), names.end(), kLock) != names.end();
   if (!isOurs && !names.empty()) {
     const bool isOther = fs::exists(file(kLock), problem) || !fs::exists(m_options.work / names.front(), problem);
-    if (problem) throw FileError(m_options.work, "cannot be read: " + problem.message(), problem);
+    if (problem) throw FileError::ofSystem(m_options.work, "cannot be read", problem);
     if (isOther) return false;  // a join that began meanwhile, or ended
     throw FileError(m_options.work, "is not empty, and not the work folder of a join");
   }

@@ -65,7 +65,7 @@ class PartFile {
     std::error_code problem;
     if (m_mode && !m_file.setPermissions(*m_mode)) problem.assign(errno, std::generic_category());
     if (!problem) fs::rename(m_part, m_target, problem);
-    if (problem) throw FileError(m_target, "cannot be replaced: " + problem.message(), problem);
+    if (problem) throw FileError::ofSystem(m_target, "cannot be replaced", problem);
     m_isThere = false;
   }
 

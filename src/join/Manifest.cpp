@@ -150,7 +150,7 @@ void Manifest::write(const fs::path& path) const {
   }
   std::error_code problem;
   fs::rename(next, path, problem);
-  if (problem) throw FileError(path, "cannot be replaced: " + problem.message(), problem);
+  if (problem) throw FileError::ofSystem(path, "cannot be replaced", problem);
 }
 
 void Manifest::check() const {

@@ -108,7 +108,7 @@ bool WorkFile::isThere() const {
 
 void WorkFile::fail(const char* action) const {
   const std::error_code code(errno, std::generic_category());
-  throw FileError(m_path, std::string("cannot be ") + action + ": " + code.message(), code);
+  throw FileError::ofSystem(m_path, std::string("cannot be ") + action, code);
 }
 
 std::optional<std::uint64_t> checksumOf(const WorkFile& file, std::uint64_t position, std::uint64_t count) {

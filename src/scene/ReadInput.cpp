@@ -43,14 +43,19 @@ Scene readBoxes(const std::filesystem::path& path, const ReadOptions& options) {
 
 }  // namespace
 
+bool isSceneFile(const std::filesystem::path& path) {
+  const std::string extension = lowerExtension(path);
+  return extension == ".scn" || extension == ".xml";
+}
+
 Scene readInput(const std::filesystem::path& path, const ReadOptions& options) {
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored)) return readMeshFolder(path, options);
   requireFile(path);
   if (isBoxArrayFile(path)) return readBoxes(path, options);
-  const std::string extension = lowerExtension(path);
-  if (extension == ".scn" || extension == ".xml") return readSofaScene(path, options);
+  if (isSceneFile(path)) return readSofaScene(path, options);
   if (isMeshFile(path)) return readMesh(path, options);
+  const std::string extension = lowerExtension(path);
   if (extension == ".py" || extension == ".pyscn")
     throw FileError(
         path, "is a SOFA scene in Python, which only SOFA can run: open it in runSofa, save it as .scn, and read that");

@@ -26,6 +26,12 @@ class FileError : public Error {
     m_code = code;
   }
 
+  /// The same, with what the system says behind what could not be done: "cannot be opened: Permission denied".
+  [[nodiscard]] static FileError ofSystem(const std::filesystem::path& path, const std::string& action,
+                                          std::error_code code) {
+    return {path, action + ": " + code.message(), code};
+  }
+
   [[nodiscard]] const std::filesystem::path& path() const noexcept { return m_path; }
   /// The problem, without the position.
   [[nodiscard]] const std::string& problem() const noexcept { return m_problem; }

@@ -9,6 +9,9 @@
 
 namespace allpairs::scene {
 
+/// Whether a path is that of a SOFA scene, by its extension: .scn or .xml.
+[[nodiscard]] bool isSceneFile(const std::filesystem::path& path);
+
 /// Reads any supported input: a SOFA scene (.scn, .xml), boxes (.npy, .csv), a mesh file, or a folder of mesh files.
 ///
 /// Bad input: throws FileError.

@@ -19,7 +19,7 @@ constexpr std::size_t kReadAtOnce = std::size_t{16} << 20;
 /// Fails for what the system has said last.
 [[noreturn]] void fail(const std::filesystem::path& path, const std::string& action) {
   const std::error_code code(errno, std::generic_category());
-  throw FileError(path, "cannot be " + action + ": " + code.message(), code);
+  throw FileError::ofSystem(path, "cannot be " + action, code);
 }
 
 }  // namespace

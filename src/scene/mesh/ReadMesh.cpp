@@ -80,7 +80,7 @@ std::vector<fs::path> sortedEntries(const fs::path& folder) {
   std::error_code error;
   std::vector<fs::path> entries;
   for (const std::string& name : folderNames(folder, error)) entries.push_back(folder / name);
-  if (error) throw FileError(folder, "cannot be listed: " + error.message(), error);
+  if (error) throw FileError::ofSystem(folder, "cannot be listed", error);
   std::sort(entries.begin(), entries.end());
   return entries;
 }
@@ -204,8 +204,8 @@ void readInto(Scene& scene, const fs::path& path, ReadScope& scope) {
 
 bool isMeshFile(const fs::path& path) {
   const std::string extension = lowerExtension(path);
-  if (extension == ".scn" || extension == ".xml" || isBoxArrayFile(path)) return false;
   return extension == ".obj" || extension == ".ply" || isAssimpFile(path);
+  if (isSceneFile(path) || isBoxArrayFile(path)) return false;
 }
 
 Scene readMesh(const fs::path& path, const ReadOptions& options) {
