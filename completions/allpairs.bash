@@ -90,7 +90,9 @@ _allpairs() {
         --max-memory) return ;;
         --input-format) return ;;
         *)
-          options='-h --help --recursive --partial --data --sofa --allow-outside --max-memory --input-format'
+        --format) words='table json' ;;
+        -o | --output) files=-f ;;
+          options='-h --help --recursive --partial --data --sofa --allow-outside --max-memory --input-format --format -o --output'
           files=-f
           ;;
       esac

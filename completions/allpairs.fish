@@ -83,6 +83,8 @@ complete -c allpairs -n '__fish_seen_subcommand_from info' -l allow-outside -d '
 complete -c allpairs -n '__fish_seen_subcommand_from info' -l max-memory -x -d 'Read within so much memory; by default half of the machine\'s'
 complete -c allpairs -n '__fish_seen_subcommand_from info' -l input-format -x -d 'What standard input (-) and pipes hold, as a file\'s extension: npy, csv, obj, stl, ...'
 complete -c allpairs -n '__fish_seen_subcommand_from info' -F
+complete -c allpairs -n '__fish_seen_subcommand_from info' -l format -x -a 'table json' -d 'Output format; default: by the extension of FILE, else table'
+complete -c allpairs -n '__fish_seen_subcommand_from info' -s o -l output -r -F -d 'Write to FILE, which appears only when complete; -: standard output'
 complete -c allpairs -n '__fish_seen_subcommand_from elements' -s h -l help -d 'Print this help message and exit'
 complete -c allpairs -n '__fish_seen_subcommand_from elements' -l distance -x -d 'Report candidates up to D apart on every axis'
 complete -c allpairs -n '__fish_seen_subcommand_from elements' -l between -d 'Only candidates between two meshes'

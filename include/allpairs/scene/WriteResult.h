@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -33,6 +34,7 @@ struct ModelRecord {
   bool selfCollision = false;
   std::vector<int> groups{};
   double contactDistance = 0.0;
+  std::optional<bool> outside{};  ///< Whether it lies outside of its region, and is in no pair; nothing if not asked.
 };
 
 /// The record of a model whose bounding tree was computed.
@@ -76,6 +78,20 @@ struct ResultView {
   DetectionStatistics statistics{};
 };
 
+/// What an input holds: models, what they have together, and how they are tested. Remarks and pipelines are not owned.
+struct InputView {
+  std::size_t modelCount = 0;
+  std::function<ModelRecord(std::size_t)> model{};
+  std::size_t elements = 0;  ///< Of all models.
+  Box box = kEmptyBox;       ///< Around all models.
+  std::string method{};
+  double distance = 0.0;         ///< The alarm distance.
+  std::optional<Box> region{};   ///< Models outside of it are in no pair.
+  Span<const Remark> ignored{};  ///< The parts of the input that were skipped.
+  Span<const Remark> warnings{};
+  Span<const PipelineRecord> pipelines{};  ///< Where the input has several; their pairs are not known.
+};
+
 /// Receives a result's bytes, in chunks.
 using ByteSink = FunctionRef<void(std::string_view)>;
 
@@ -86,6 +102,10 @@ using ByteSink = FunctionRef<void(std::string_view)>;
 /// the strings "inf" and "-inf".
 /// Cost: linear, in constant memory.
 void writeJson(const ResultView& result, ByteSink sink);
+
+/// Writes {"models": [...], "ignored": [...], "warnings": [...], "statistics": {...}}, and "pipelines": [...] as above.
+/// Cost: linear, in constant memory.
+void writeInputJson(const InputView& input, ByteSink sink);
 
 /// Writes a header, and a line with the two names for each pair; names are quoted where they need to be (RFC 4180).
 void writeCsv(const ResultView& result, ByteSink sink);

@@ -23,24 +23,29 @@ std::string corner(const std::array<double, 3>& point) {
   return '[' + number(point[0]) + ", " + number(point[1]) + ", " + number(point[2]) + ']';
 }
 
+std::string boxValue(const Box& box) { return '[' + corner(box.min) + ", " + corner(box.max) + ']'; }
+
 void writeModel(const ModelRecord& model, TextBuffer& out) {
   out.format(R"({{"name": {}, )", quoted(model.name));
   if (!model.file.empty()) out.format(R"("file": {}, )", quoted(model.file));
   if (!model.path.empty()) out.format(R"("path": {}, )", quoted(model.path));
   if (!model.kind.empty()) out.format(R"("ifcType": {}, "globalId": {}, )", quoted(model.kind), quoted(model.id));
   out.format(R"("type": {}, "elements": {}, )", quoted(model.type), model.elements);
-  out.format(R"("box": [{}, {}], )", corner(model.box.min), corner(model.box.max));
+  out.format(R"("box": {}, )", boxValue(model.box));
   out.format(R"("active": {}, "simulated": {}, "moving": {}, "selfCollision": {}, )", model.active, model.simulated,
              model.moving, model.selfCollision);
+  if (model.outside) out.format(R"("outside": {}, )", *model.outside);
   out.format(R"("groups": [{}], "contactDistance": {}}})", fmt::join(model.groups, ", "),
              number(model.contactDistance));
 }
 
-void writeModels(const ResultView& result, TextBuffer& out) {
+/// `view` is a ResultView or an InputView.
+template <class View>
+void writeModels(const View& view, TextBuffer& out) {
   out.append("{\"models\": [");
-  for (std::size_t i = 0; i < result.modelCount; ++i) {
+  for (std::size_t i = 0; i < view.modelCount; ++i) {
     out.append(i == 0 ? "\n  " : ",\n  ");
-    writeModel(result.model(i), out);
+    writeModel(view.model(i), out);
   }
   out.append("],\n");
 }
@@ -67,15 +72,18 @@ void writeRemarks(std::string_view name, std::span<const Remark> remarks, TextBu
   out.append("],\n");
 }
 
-void writePipelines(const ResultView& result, TextBuffer& out) {
-  if (result.pipelines.empty()) return;
+/// `detected`: how many pairs each has is known.
+void writePipelines(std::span<const PipelineRecord> pipelines, bool detected, TextBuffer& out) {
+  if (pipelines.empty()) return;
   out.append("\"pipelines\": [");
-  for (std::size_t i = 0; i < result.pipelines.size(); ++i) {
-    const PipelineRecord& pipeline = result.pipelines[i];
+  for (std::size_t i = 0; i < pipelines.size(); ++i) {
+    const PipelineRecord& pipeline = pipelines[i];
     out.append(i == 0 ? "\n  " : ",\n  ");
     out.format(R"({{"name": {}, "method": {}, "distance": {}, )", quoted(pipeline.name), quoted(pipeline.method),
                number(pipeline.distance));
-    out.format(R"("models": [{}], "pairs": {}}})", fmt::join(pipeline.models, ", "), pipeline.pairs);
+    out.format(R"("models": [{}])", fmt::join(pipeline.models, ", "));
+    if (detected) out.format(R"(, "pairs": {})", pipeline.pairs);
+    out.append("}");
   }
   out.append("],\n");
 }
@@ -92,6 +100,14 @@ void writeStatistics(const ResultView& result, TextBuffer& out) {
   out.append("\n");
 }
 
+void writeSummary(const InputView& input, TextBuffer& out) {
+  out.format(R"("statistics": {{"models": {}, "elements": {}, "box": {}, )", input.modelCount, input.elements,
+             boxValue(input.box));
+  if (input.region) out.format(R"("region": {}, )", boxValue(*input.region));
+  out.format(R"("method": {}, "distance": {}}}}})", quoted(input.method), number(input.distance));
+  out.append("\n");
+}
+
 }  // namespace
 
 void writeJson(const ResultView& result, ByteSink sink) {
@@ -100,8 +116,18 @@ void writeJson(const ResultView& result, ByteSink sink) {
   writePairs(result, out);
   writeRemarks("ignored", result.ignored, out);
   writeRemarks("warnings", result.warnings, out);
-  writePipelines(result, out);
+  writePipelines(result.pipelines, true, out);
   writeStatistics(result, out);
+  out.flush();
+}
+
+void writeInputJson(const InputView& input, ByteSink sink) {
+  TextBuffer out(sink);
+  writeModels(input, out);
+  writeRemarks("ignored", input.ignored, out);
+  writeRemarks("warnings", input.warnings, out);
+  writePipelines(input.pipelines, false, out);
+  writeSummary(input, out);
   out.flush();
 }
 
