@@ -28,11 +28,12 @@ _allpairs() {
         --strategy) words='auto exhaustive bvh' ;;
         --threads) return ;;
         --fail-on) words='pair clash' ;;
+        --why) return ;;
         --format) words='table csv json npy' ;;
         -o | --output) files=-f ;;
         --color) words='auto always never' ;;
         *)
-          options='-h --help --recursive --partial --data --sofa --allow-outside --max-memory --input-format --distance --box --clearance --min-depth --strategy --threads --verify --exact --worlds --fail-on --format -o --output --color'
+          options='-h --help --recursive --partial --data --sofa --allow-outside --max-memory --input-format --distance --box --clearance --min-depth --strategy --threads --verify --exact --worlds --fail-on --why --format -o --output --color'
           files=-f
           ;;
       esac

@@ -5,9 +5,12 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <algorithm>
+#include <initializer_list>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
+#include <variant>
 #include <vector>
 
 #include "Commands.h"
@@ -27,6 +30,7 @@
 #include "detect/Detection.h"
 #include "detect/Exact.h"
 #include "detect/SearchArguments.h"
+#include "detect/Why.h"
 #include "input/Inputs.h"
 #include "input/SpooledInputs.h"
 
@@ -45,6 +49,7 @@ struct DetectSettings {
   std::string output;
   std::string color = "auto";
   std::string failOn;
+  std::vector<std::string> why;  ///< Two models, or none.
 };
 
 constexpr const char* kDetectExamples = R"(INPUT is one or more of
@@ -65,6 +70,7 @@ Examples:
   allpairs detect boxes.npy -o pairs.npy
   allpairs detect robots.npy --worlds -o pairs.npy
   allpairs detect boxes.csv --box -10,-10,0,10,10,5 --format csv
+  allpairs detect scene.scn --why /Ball/Surface/model 7
   allpairs detect scene.scn --verify --format json | jq '.pairs | length'
 
 Boxes are closed: boxes that share a corner are a pair.)";
@@ -182,6 +188,27 @@ void makeScene(Inputs& inputs) {
   inputs = std::move(scene);
 }
 
+/// What --why is given with changes the pairs, and does not ask for them.
+void checkWhy(const DetectSettings& settings) {
+  const std::initializer_list<std::pair<std::string, bool>> others{
+      {"--exact", settings.exact},
+      {"--worlds", settings.worlds},
+      {"--verify", settings.verify},
+      {"--fail-on", !settings.failOn.empty()},
+      {"--format " + settings.format, settings.format != kDetectFormats.front()}};
+  for (const auto& [name, isGiven] : others) {
+    if (isGiven) throw UsageError("--why says of two models whether their boxes are a pair; it takes no " + name);
+  }
+}
+
+void explain(const DetectSettings& settings, const DetectionOptions& options, Output& output) {
+  checkWhy(settings);
+  Inputs inputs = readInputs(settings.input);
+  makeScene(inputs);
+  output.write(whyText(std::get<scene::Scene>(inputs), settings.why, options));
+  output.commit();
+}
+
 void runDetect(const DetectSettings& settings, const DetectionOptions& options) {
   checkOutputs(settings.input);
   Output output(targetOf(settings.output));
@@ -190,6 +217,7 @@ void runDetect(const DetectSettings& settings, const DetectionOptions& options) 
     throw UsageError("--clearance is measured between shapes: add --exact, or use --distance for boxes");
   if (settings.search.leastDepth && !settings.exact) throw UsageError("--min-depth is of shapes: add --exact");
   if (settings.failOn == "clash" && !settings.exact) throw UsageError("--fail-on clash is of shapes: add --exact");
+  if (!settings.why.empty()) return explain(settings, options, output);
   if (settings.worlds) {
     if (settings.exact) throw UsageError("--exact tests shapes; the boxes of --worlds have none");
     const std::size_t pairs = detectWorlds(settings.input, options, settings.format, output);
@@ -243,6 +271,9 @@ void addDetect(CLI::App& program) {
   command->add_flag("--worlds", settings->worlds, "A .npy array (w, n, 6): pairs of boxes of the same world only");
   addChoice(*command, "--fail-on", settings->failOn, {"pair", "clash"})
       ->description("End with status 4 if there is a pair, or with --exact a clash");
+  command->add_option("--why", settings->why, "Say why two models, by name or number, are or are not a pair")
+      ->type_name("A B")
+      ->expected(2);
   addFormat(*command, settings->format, kDetectFormats);
   addOutput(*command, settings->output);
   addChoice(*command, "--color", settings->color, {"auto", "always", "never"})

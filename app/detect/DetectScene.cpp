@@ -28,15 +28,6 @@ void applyTo(collision::Intersection& method, const DetectionOptions& options) {
     method.setAlarmDistance(options.clearance);
 }
 
-void applyTo(scene::Scene& scene, const DetectionOptions& options) {
-  applyTo(*scene.intersection, options);
-  if (options.region) scene.region = options.region;
-  for (scene::ScenePipeline& pipeline : scene.pipelines) {
-    applyTo(*pipeline.intersection, options);
-    if (options.region) pipeline.region = options.region;
-  }
-}
-
 /// Runs one search, adds its pairs to the detection and its work to the statistics.
 void run(const scene::SceneSearch& search, double timeStep, const DetectionOptions& options, Detection& detection) {
   const std::unique_ptr<Executor> executor = makeExecutor(options.threads, search.models.size());
@@ -63,8 +54,17 @@ void run(const scene::SceneSearch& search, double timeStep, const DetectionOptio
 
 }  // namespace
 
+void apply(const DetectionOptions& options, scene::Scene& scene) {
+  applyTo(*scene.intersection, options);
+  if (options.region) scene.region = options.region;
+  for (scene::ScenePipeline& pipeline : scene.pipelines) {
+    applyTo(*pipeline.intersection, options);
+    if (options.region) pipeline.region = options.region;
+  }
+}
+
 Detection detectScene(scene::Scene& scene, const DetectionOptions& options) {
-  applyTo(scene, options);
+  apply(options, scene);
   Detection detection;
   const std::vector<scene::SceneSearch> searches = scene::searchesOf(scene);
   for (std::size_t i = 0; i < searches.size(); ++i) {

@@ -56,6 +56,9 @@ enum class BoxPairOrder : std::uint8_t {
 /// Bad input: with options.verify, strategies that disagree throw collision::VerificationError.
 [[nodiscard]] Detection detectScene(scene::Scene& scene, const DetectionOptions& options);
 
+/// Gives a scene the distance and the region of the command line, where they are given.
+void apply(const DetectionOptions& options, scene::Scene& scene);
+
 /// The strategy of a word of --strategy: auto, exhaustive or bvh.
 [[nodiscard]] Strategy strategyOf(const std::string& name);
 

@@ -109,20 +109,24 @@ void BruteForceBroadPhase::beginBroadPhase() {
 }
 
 void BruteForceBroadPhase::addCollisionModel(core::CollisionModel* cm) {
-  State& state = *m_state;
-  if (cm == nullptr) return;
+  if (add(*m_state, cm) != PairRule::None) return;
+  if (m_state->search.strategy() == Strategy::Exhaustive) m_state->complete();
+}
+
+PairRule BruteForceBroadPhase::add(State& step, core::CollisionModel* cm) {
+  if (cm == nullptr) return PairRule::NoElements;
   CollisionModel& last = *cm->getLast();
-  const bool ours = state.models.isOurs(last);
-  if (ModelTable::isEmpty(last, ours)) return;
-  state.useMethod(getIntersectionMethod());
+  const bool ours = step.models.isOurs(last);
+  if (ModelTable::isEmpty(last, ours)) return PairRule::NoElements;
+  step.useMethod(getIntersectionMethod());
   if (!last.hasBoundingTree()) {
     last.computeBoundingTree(0);
     if (cm != &last) cm = last.getFirst();  // what was given may be gone with the old tree
   }
-  if (state.region && !intersectWithBoxModel(cm)) return;
+  if (m_state->region && !intersectWithBoxModel(cm)) return PairRule::OutsideRegion;
   const bool mayHaveSelfPair = !ours || last.getSelfCollision();
-  state.models.add(cm, ours, mayHaveSelfPair && doesSelfCollide(cm));
-  if (state.search.strategy() == Strategy::Exhaustive) state.complete();
+  step.models.add(cm, ours, mayHaveSelfPair && doesSelfCollide(cm));
+  return PairRule::None;
 }
 
 void BruteForceBroadPhase::addCollisionModels(Span<core::CollisionModel* const> models) {
@@ -144,10 +148,24 @@ bool BruteForceBroadPhase::keepCollisionBetween(core::CollisionModel* cm1, core:
   return last1->canCollideWith(last2) && last2->canCollideWith(last1);
 }
 
-bool BruteForceBroadPhase::doesSelfCollide(core::CollisionModel* cm) {
+bool BruteForceBroadPhase::doesSelfCollide(core::CollisionModel* cm) { return selfRule(cm) == PairRule::None; }
+
+PairRule BruteForceBroadPhase::selfRule(core::CollisionModel* cm) const {
   CollisionModel* last = cm->getLast();
-  if (!cm->isSimulated() || !last->canCollideWith(last)) return false;
-  return PairRules::rootsMayTouch(cm, cm, *getIntersectionMethod(), false);
+  if (!cm->isSimulated()) return PairRule::NotSimulated;
+  if (!last->canCollideWith(last)) return PairRule::OneOwner;
+  return PairRules::rootsMayTouch(cm, cm, *getIntersectionMethod(), false) ? PairRule::None : PairRule::Apart;
+}
+
+PairVerdict BruteForceBroadPhase::judge(core::CollisionModel* newer, core::CollisionModel* older) {
+  State step;
+  for (core::CollisionModel* model : {older, newer}) {
+    if (const PairRule rule = add(step, model); rule != PairRule::None) return {rule, model};
+  }
+  if (older->getLast() != newer->getLast()) return {step.rules.judge(1, 0).rule, nullptr};
+  const PairRule rule = selfRule(newer);
+  const bool isOurs = step.models.row(0).has(ModelRow::kDefaultRules);
+  return {rule == PairRule::OneOwner && !isOurs ? PairRule::Refused : rule, nullptr};
 }
 
 bool BruteForceBroadPhase::intersectWithBoxModel(core::CollisionModel* cm) {
@@ -176,7 +194,7 @@ void BruteForceBroadPhase::verify() {
     CollisionModel* model = m_state->models.row(newer).model;
     if (doesSelfCollide(model)) expected.emplace_back(model, model);
     for (std::size_t older = 0; older < newer; ++older) {
-      if (const auto pair = m_state->rules.askModels(newer, older)) expected.push_back(*pair);
+      if (const auto pair = m_state->rules.judge(newer, older).pair) expected.push_back(*pair);
     }
   }
   const std::vector<CollisionModelPair>& found = m_state->pairs;

@@ -44,6 +44,10 @@ void CollisionPipeline::reset() {
   if (m_narrowPhase != nullptr) m_narrowPhase->beginNarrowPhase();
 }
 
+bool CollisionPipeline::takes(const CollisionModel* model) {
+  return model != nullptr && !model->getLast()->empty() && model->isActive();
+}
+
 void CollisionPipeline::computeBoundingTrees(Span<CollisionModel* const> models, double dt) {
   initOnce();
   m_active.clear();
@@ -51,7 +55,7 @@ void CollisionPipeline::computeBoundingTrees(Span<CollisionModel* const> models,
   const bool deep =
       m_broadPhase->needsDeepBoundingTree() || (m_narrowPhase != nullptr && m_narrowPhase->needsDeepBoundingTree());
   for (CollisionModel* model : models) {
-    if (model == nullptr || model->getLast()->empty() || !model->isActive()) continue;
+    if (!takes(model)) continue;
     CollisionModel* const last = model->getLast();  // a level above it may be gone with its old bounding tree
     if (last->isMoving() || !last->hasBoundingTree()) computeBoundingTree(*last, dt, deep ? m_depth : 0);
     m_active.push_back(last);

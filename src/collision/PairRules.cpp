@@ -71,19 +71,25 @@ std::optional<CollisionModelPair> PairRules::ask(std::size_t newer, std::size_t 
   return pair;
 }
 
-std::optional<CollisionModelPair> PairRules::askModels(std::size_t newer, std::size_t older) const {
+/// Which rule of canCollideWith() it is that did not let two models collide.
+PairRule PairRules::refusalOf(const ModelRow& a, const ModelRow& b) {
+  if (!a.has(ModelRow::kDefaultRules) || !b.has(ModelRow::kDefaultRules)) return PairRule::Refused;
+  return a.owner == b.owner ? PairRule::OneOwner : PairRule::CommonGroup;
+}
+
+PairRules::Judgement PairRules::judge(std::size_t newer, std::size_t older) const {
   const ModelRow& a = m_models.row(newer);
   const ModelRow& b = m_models.row(older);
-  if (!a.has(ModelRow::kSimulated) && !b.has(ModelRow::kSimulated)) return std::nullopt;
-  if (!BruteForceBroadPhase::keepCollisionBetween(a.model->getLast(), b.model->getLast())) return std::nullopt;
+  if (!a.has(ModelRow::kSimulated) && !b.has(ModelRow::kSimulated)) return {PairRule::NotSimulated};
+  if (!BruteForceBroadPhase::keepCollisionBetween(a.model->getLast(), b.model->getLast())) return {refusalOf(a, b)};
   const Link link = findLink(a.model, b.model);
-  if (link.intersector == nullptr) return std::nullopt;
+  if (link.intersector == nullptr) return {PairRule::NoIntersector};
   CollisionModelPair pair{a.model, b.model};
   if (link.swap) std::swap(pair.first, pair.second);
   const CollisionElement first{pair.first->getFirst(), 0};
   const CollisionElement second{pair.second->getFirst(), 0};
-  if (!link.intersector->canIntersect(first, second, *m_method)) return std::nullopt;
-  return pair;
+  if (!link.intersector->canIntersect(first, second, *m_method)) return {PairRule::Apart};
+  return {PairRule::None, pair};
 }
 
 bool PairRules::keeps(const ModelRow& newer, const ModelRow& older) const {

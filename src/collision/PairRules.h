@@ -7,13 +7,14 @@
 
 #include "ModelTable.h"
 #include "allpairs/collision/BroadPhaseDetection.h"
+#include "allpairs/collision/PairVerdict.h"
 
 namespace allpairs::collision {
 
 /// The seed's rules for a pair of models, in the seed's order.
 ///
 /// Of models and methods that are the library's own the rules are answered from the table; those of users are asked
-/// through their virtual functions. askModels() always asks, and serves as the plain double loop.
+/// through their virtual functions. judge() always asks, and serves as the plain double loop.
 class PairRules {
  public:
   explicit PairRules(const ModelTable& models) : m_models(models) {}
@@ -62,8 +63,14 @@ class PairRules {
   /// The pair to report for two rows of the table, if there is one. `boxesAreNear`: a search has tested the boxes.
   [[nodiscard]] std::optional<CollisionModelPair> ask(std::size_t newer, std::size_t older, bool boxesAreNear);
 
+  /// The pair to report for two rows, or the rule that there is none by.
+  struct Judgement {
+    PairRule rule = PairRule::None;
+    std::optional<CollisionModelPair> pair{};
+  };
+
   /// The same by the virtual functions of models, method and intersector alone.
-  [[nodiscard]] std::optional<CollisionModelPair> askModels(std::size_t newer, std::size_t older) const;
+  [[nodiscard]] Judgement judge(std::size_t newer, std::size_t older) const;
 
   /// Whether a root may touch another's, or its own, asked through the method; null intersectors give `otherwise`.
   [[nodiscard]] static bool rootsMayTouch(CollisionModel* first, CollisionModel* second, Intersection& method,
@@ -80,6 +87,7 @@ class PairRules {
   };
 
   [[nodiscard]] bool keeps(const ModelRow& newer, const ModelRow& older) const;
+  [[nodiscard]] static PairRule refusalOf(const ModelRow& a, const ModelRow& b);
   void countTypes();
   [[nodiscard]] Link linkOf(const ModelRow& newer, const ModelRow& older);
   [[nodiscard]] Link findLink(CollisionModel* newer, CollisionModel* older) const;

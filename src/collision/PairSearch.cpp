@@ -41,7 +41,7 @@ void PairSearch::askAll(std::size_t begin, std::vector<CollisionModelPair>& pair
 void PairSearch::addPairs(std::size_t begin, std::vector<CollisionModelPair>& pairs, BroadPhaseStatistics& statistics) {
   if (m_strategy == Strategy::Exhaustive) {
     askAll(begin, pairs, statistics,
-           [this](std::size_t newer, std::size_t older) { return m_rules.askModels(newer, older); });
+           [this](std::size_t newer, std::size_t older) { return m_rules.judge(newer, older).pair; });
   } else if (m_rules.maximumDistance() == std::numeric_limits<double>::infinity()) {
     askAll(begin, pairs, statistics,
            [this](std::size_t newer, std::size_t older) { return m_rules.ask(newer, older, false); });

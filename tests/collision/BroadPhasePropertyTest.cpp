@@ -110,5 +110,26 @@ RC_GTEST_PROP(BroadPhaseProperty, RootsMayBeAddedInPlaceOfModels, ()) {
   RC_ASSERT(world.indices(pairs) == world.firstPlaces(test::sceneOracle(scene)));
 }
 
+/// Of each two models, in the order in which they come, and of each with itself.
+RC_GTEST_PROP(BroadPhaseProperty, AVerdictOnTwoModelsIsWhatTheListSays, ()) {
+  SceneSpec scene = *test::anyScene();
+  scene.models.resize(std::min<std::size_t>(scene.models.size(), 12));
+  for (test::ModelSpec& model : scene.models) model.again = false;
+  for (std::size_t i = 0; i < scene.models.size(); ++i) {
+    SceneSpec alone = scene;
+    for (std::size_t k = 0; k <= i; ++k) {
+      alone.models = {scene.models[k]};
+      if (k != i) alone.models.push_back(scene.models[i]);
+      const SceneWorld world(alone);
+      BruteForceBroadPhase phase;
+      world.prepare(phase);
+      const collision::PairVerdict verdict = phase.judge(world.models().back(), world.models().front());
+      std::vector<IndexPair> pairs = test::sceneOracle(alone);
+      if (k != i) std::erase_if(pairs, [](const IndexPair& pair) { return pair.first == pair.second; });
+      RC_ASSERT(verdict.isPair() == !pairs.empty());
+    }
+  }
+}
+
 }  // namespace
 }  // namespace allpairs

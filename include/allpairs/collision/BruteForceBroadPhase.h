@@ -12,6 +12,7 @@
 #include "allpairs/Span.h"
 #include "allpairs/StopFlag.h"
 #include "allpairs/collision/BroadPhaseDetection.h"
+#include "allpairs/collision/PairVerdict.h"
 
 namespace allpairs::collision {
 
@@ -109,6 +110,12 @@ class BruteForceBroadPhase : public BroadPhaseDetection {
   /// model of the step, throws InvalidArgument. Cost: n(n-1)/2 calls of the rules.
   void verify();
 
+  /// Whether two models are a pair, and which rule says no: as of a step in which both are added, `older` first, by the
+  /// rules of verify(). For a model and itself: whether it has a pair with itself. What the step has found stays.
+  ///
+  /// Bad input: as of addCollisionModel().
+  [[nodiscard]] PairVerdict judge(core::CollisionModel* newer, core::CollisionModel* older);
+
  protected:
   /// Whether a model can collide with itself, by its flags and by its intersector.
   [[nodiscard]] bool doesSelfCollide(core::CollisionModel* cm);
@@ -118,6 +125,13 @@ class BruteForceBroadPhase : public BroadPhaseDetection {
 
  private:
   struct State;
+
+  /// Adds a model to a step, or says what keeps it out.
+  PairRule add(State& step, core::CollisionModel* cm);
+
+  /// What keeps a model from being a pair with itself.
+  [[nodiscard]] PairRule selfRule(core::CollisionModel* cm) const;
+
   std::unique_ptr<State> m_state;
 };
 

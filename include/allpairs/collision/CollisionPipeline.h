@@ -35,6 +35,9 @@ class CollisionPipeline {
   /// Clears the results of the last step.
   void reset();
 
+  /// Whether a model takes part in a step: one that is active and has elements.
+  [[nodiscard]] static bool takes(const CollisionModel* model);
+
   /// Computes the bounding trees of the active models: in each step for those that move, once for the others.
   /// Deep only if the broad or the narrow phase needs it; over a step of length dt if the method is continuous.
   void computeBoundingTrees(Span<CollisionModel* const> models, double dt = 0.0);

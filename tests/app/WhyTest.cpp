@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+// What detect --why says of two models.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <set>
+#include <utility>
+
+#include "Expect.h"
+#include "support/TempFolder.h"
+
+namespace allpairs::test {
+namespace {
+
+using Arguments = std::vector<std::string>;
+
+/// One of each rule, all boxes near one another but those of F and G.
+const std::string kRules = R"(<Node name="root"><CollisionPipeline/><BVHNarrowPhase/><CollisionResponse/>
+<BruteForceBroadPhase box="-9 -9 -9 30 9 9"/><MinProximityIntersection alarmDistance="0.5"/>
+<Node name="A"><MechanicalObject position="0 0 0"/><SphereCollisionModel name="s"/>
+<SphereCollisionModel name="t" selfCollision="1"/><SphereCollisionModel name="u" selfCollision="1"/></Node>
+<Node name="B"><MechanicalObject position="1 0 0"/><SphereCollisionModel name="s" group="3 4"/></Node>
+<Node name="C"><MechanicalObject position="1 1 0"/><SphereCollisionModel name="s" group="4"/></Node>
+<Node name="D"><MechanicalObject position="0 1 0"/><SphereCollisionModel name="s" simulated="0"/></Node>
+<Node name="E"><MechanicalObject position="0 1 0"/><SphereCollisionModel name="s" simulated="0"/></Node>
+<Node name="F"><MechanicalObject position="20 0 0"/><SphereCollisionModel name="s" contactDistance="0.25"/></Node>
+<Node name="G"><MechanicalObject position="50 0 0"/><SphereCollisionModel name="s"/></Node>
+<Node name="H"><MechanicalObject position="0 1 0"/><SphereCollisionModel name="s" active="0"/></Node>
+<Node name="I"><MechanicalObject position="22.75 0 0"/><SphereCollisionModel name="s"/></Node></Node>)";
+
+std::string whyOf(const std::string& input, const std::string& a, const std::string& b, const Arguments& more = {}) {
+  Arguments words{"detect", input, "--why", a, b};
+  words.insert(words.end(), more.begin(), more.end());
+  const ProgramRun run = runProgram(words);
+  EXPECT_EQ(run.status, 0) << run.err;
+  return run.out;
+}
+
+/// The pairs that --why calls pairs, of all there could be, must be those that detect lists.
+void expectSamePairs(const std::string& input, const Arguments& more = {}) {
+  Arguments words{"detect", input, "--format", "json"};
+  words.insert(words.end(), more.begin(), more.end());
+  const auto result = nlohmann::json::parse(runProgram(words).out);
+  std::set<std::pair<std::size_t, std::size_t>> expected;
+  for (const auto& pair : result["pairs"])
+    expected.emplace(std::min<std::size_t>(pair[0], pair[1]), std::max<std::size_t>(pair[0], pair[1]));
+  std::set<std::pair<std::size_t, std::size_t>> found;
+  const std::size_t count = result["models"].size();
+  for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t k = i; k < count; ++k) {
+      const bool isBox = result["models"][i]["type"] == "BoxModel";
+      if (i == k && isBox) continue;  // a box alone has no pair with itself
+      const std::string why = whyOf(input, std::to_string(i), std::to_string(k), more);
+      if (why.find(" a pair") != std::string::npos && why.find(" no pair") == std::string::npos) found.emplace(i, k);
+    }
+  }
+  EXPECT_EQ(found, expected) << input;
+}
+
+TEST(Why, SaysOfAllPairsOfASceneWhatDetectFinds) {
+  const TempFolder folder;
+  const std::string scene = folder.write("rules.scn", kRules);
+  expectSamePairs(scene);
+  expectSamePairs(scene, {"--distance", "30"});
+  expectSamePairs(scene, {"--box", "-9,-9,-9,0.25,9,9"});
+}
+
+TEST(Why, SaysOfAllPairsOfASceneOfFlatModelsWhatDetectFinds) {
+  expectSamePairs(ALLPAIRS_SOURCE_DIR "/tests/view/flat.scn");
+}
+
+TEST(Why, SaysOfAllPairsOfBoxesWhatDetectFinds) {
+  const TempFolder folder;
+  const std::string boxes =
+      folder.write("boxes.csv", "a,0,0,0,1,1,1\nb,1,1,1,2,2,2\nc,2.5,0,0,3,1,1\nempty,1,0,0,0,1,1\nd,0,0,0,inf,9,9\n");
+  expectSamePairs(boxes);
+  expectSamePairs(boxes, {"--distance", "0.5"});
+  expectSamePairs(boxes, {"--distance", "-0.5"});
+  expectSamePairs(boxes, {"--box", "0,0,0,0.5,1,1"});
+}
+
+TEST(Why, NamesTheRule) {
+  const TempFolder folder;
+  const std::string scene = folder.write("rules.scn", kRules);
+  const auto expectReason = [&scene](const std::string& a, const std::string& b, const std::string& reason) {
+    EXPECT_NE(whyOf(scene, a, b).find(reason), std::string::npos) << whyOf(scene, a, b);
+  };
+  expectReason("/A/s", "/B/s", "'/B/s' (3) and '/A/s' (0) are a pair: their boxes are near enough");
+  expectReason("/A/s", "/A/t", "no pair: both are of one node or body, '/A', and selfCollision of '/A/s' (0) is off");
+  expectReason("/A/u", "/A/t", "are a pair: ");
+  expectReason("/B/s", "/C/s", "are no pair: both are in the group 4\n");
+  expectReason("/D/s", "/E/s", "are no pair: neither of them is simulated\n");
+  expectReason("/A/s", "/G/s", "are no pair: '/G/s' (8) is outside of the region [-9, -9, -9] to [30, 9, 9]\n");
+  expectReason("/A/s", "/H/s", "are no pair: '/H/s' (9) is not active\n");
+  expectReason("/A/s", "/A/s", "'/A/s' (0) is no pair with itself: it may not collide with itself");
+  expectReason("1", "1", "'/A/t' (1) is a pair with itself: selfCollision is on\n");
+  expectReason("/F/s", "10",
+               "'/I/s' (10) and '/F/s' (7) are a pair: their boxes are near enough, and no rule excludes them\n"
+               "  gaps of the boxes: 0.5 on x, -2.25 on y, -2.25 on z, below 0 where they overlap; a pair has at most "
+               "0.75\n");
+  EXPECT_EQ(whyOf(scene, "/F/s", "/A/s"),
+            "'/F/s' (7) and '/A/s' (0) are no pair: their boxes are too far apart\n"
+            "  gaps of the boxes: 17.75 on x, -2.25 on y, -2.25 on z, below 0 where they overlap; a pair has at most "
+            "0.75\n");
+}
+
+TEST(Why, NamesAnEmptyBox) {
+  const TempFolder folder;
+  const std::string boxes = folder.write("boxes.csv", "a,0,0,0,1,1,1\nempty,1,0,0,0,1,1\n");
+  EXPECT_EQ(whyOf(boxes, "a", "empty"),
+            "'empty' (1) and 'a' (0) are no pair: the box of 'empty' (1) is empty: its min is above its max\n");
+}
+
+TEST(Why, WantsNamesThatSayWhichModel) {
+  const TempFolder folder;
+  const std::string boxes = folder.write("boxes.csv", "a,0,0,0,1,1,1\nb,0,0,0,1,1,1\nb,0,0,0,1,1,1\n");
+  expectFailure(runProgram({"detect", boxes, "--why", "a", "c"}), kWrongUsage,
+                "--why: of 3 models, none has the name or the number 'c'; 'allpairs info' lists them");
+  expectFailure(runProgram({"detect", boxes, "--why", "a", "3"}), kWrongUsage, "none has the name or the number '3'");
+  expectFailure(runProgram({"detect", boxes, "--why", "a"}), kWrongUsage, "--why");
+  expectFailure(runProgram({"detect", boxes, "--why", "a", "2", "--format", "csv"}), kWrongUsage,
+                "it takes no --format csv");
+  expectFailure(runProgram({"detect", boxes, "--why", "a", "2", "--verify"}), kWrongUsage, "it takes no --verify");
+}
+
+TEST(Why, AnswersForEachPipelineThatTakesBoth) {
+  const TempFolder folder;
+  const std::string scene = folder.write("two.scn", R"(<Node name="root">
+<CompositeCollisionPipeline subCollisionPipelines="@p1 @p2"/><CollisionResponse name="r"/><BVHNarrowPhase name="n"/>
+<BruteForceBroadPhase name="b"/><DiscreteIntersection name="m"/><MinProximityIntersection name="m2" alarmDistance="9"/>
+<SubCollisionPipeline name="p1" collisionModels="@A/s @B/s" broadPhaseDetection="@b" narrowPhaseDetection="@n"
+ intersectionMethod="@m" contactManager="@r"/>
+<SubCollisionPipeline name="p2" collisionModels="@A/s @B/s @C/s" broadPhaseDetection="@b" narrowPhaseDetection="@n"
+ intersectionMethod="@m2" contactManager="@r"/>
+<Node name="A"><MechanicalObject position="0 0 0"/><SphereCollisionModel name="s"/></Node>
+<Node name="B"><MechanicalObject position="3 0 0"/><SphereCollisionModel name="s"/></Node>
+<Node name="C"><MechanicalObject position="3 0 0"/><SphereCollisionModel name="s"/></Node>
+<Node name="D"><MechanicalObject position="3 0 0"/><SphereCollisionModel name="s"/></Node></Node>)");
+  const std::string both = whyOf(scene, "/A/s", "/B/s");
+  EXPECT_NE(both.find("in /p1: '/B/s' (1) and '/A/s' (0) are no pair"), std::string::npos) << both;
+  EXPECT_NE(both.find("in /p2: '/B/s' (1) and '/A/s' (0) are a pair"), std::string::npos) << both;
+  EXPECT_TRUE(whyOf(scene, "/A/s", "/C/s").starts_with("in /p2: ")) << whyOf(scene, "/A/s", "/C/s");
+}
+
+}  // namespace
+}  // namespace allpairs::test
