@@ -90,9 +90,9 @@ _allpairs() {
         --sofa) words='20.06 26.12' ;;
         --max-memory) return ;;
         --input-format) return ;;
-        *)
         --format) words='table json' ;;
         -o | --output) files=-f ;;
+        *)
           options='-h --help --recursive --partial --data --sofa --allow-outside --max-memory --input-format --format -o --output'
           files=-f
           ;;
@@ -138,10 +138,11 @@ _allpairs() {
         --min-depth) return ;;
         --group) words='body assembly file none' ;;
         --up) words='x y z' ;;
+        --threads) return ;;
         -o | --output) files=-f ;;
         --port) return ;;
         *)
-          options='-h --help --recursive --partial --data --sofa --allow-outside --max-memory --input-format --distance --box --clearance --min-depth --exact --boxes --group --up --sequence -o --output --open --serve --port'
+          options='-h --help --recursive --partial --data --sofa --allow-outside --max-memory --input-format --distance --box --clearance --min-depth --exact --boxes --group --up --threads --sequence -o --output --open --serve --port'
           files=-f
           ;;
       esac
@@ -158,6 +159,7 @@ _allpairs() {
         --min-depth) return ;;
         --group) words='body assembly file none' ;;
         --up) words='x y z' ;;
+        --threads) return ;;
         -o | --output) files=-d ;;
         --bcf) words='2.1 3.0' ;;
         --since) files=-d ;;
@@ -165,7 +167,7 @@ _allpairs() {
         --pictures) return ;;
         --metres-per-unit) return ;;
         *)
-          options='-h --help --recursive --partial --data --sofa --allow-outside --max-memory --input-format --distance --box --clearance --min-depth --exact --boxes --group --up -o --output --force --bcf --since --fail-on --open --pictures --metres-per-unit'
+          options='-h --help --recursive --partial --data --sofa --allow-outside --max-memory --input-format --distance --box --clearance --min-depth --exact --boxes --group --up --threads -o --output --force --bcf --since --fail-on --open --pictures --metres-per-unit'
           files=-f
           ;;
       esac

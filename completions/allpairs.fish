@@ -83,9 +83,9 @@ complete -c allpairs -n '__fish_seen_subcommand_from info' -l sofa -x -a '20.06 
 complete -c allpairs -n '__fish_seen_subcommand_from info' -l allow-outside -d 'Let inputs name files outside of their own folders'
 complete -c allpairs -n '__fish_seen_subcommand_from info' -l max-memory -x -d 'Read within so much memory; by default half of the machine\'s'
 complete -c allpairs -n '__fish_seen_subcommand_from info' -l input-format -x -d 'What standard input (-) and pipes hold, as a file\'s extension: npy, csv, obj, stl, ...'
-complete -c allpairs -n '__fish_seen_subcommand_from info' -F
 complete -c allpairs -n '__fish_seen_subcommand_from info' -l format -x -a 'table json' -d 'Output format; default: by the extension of FILE, else table'
 complete -c allpairs -n '__fish_seen_subcommand_from info' -s o -l output -r -F -d 'Write to FILE, which appears only when complete; -: standard output'
+complete -c allpairs -n '__fish_seen_subcommand_from info' -F
 complete -c allpairs -n '__fish_seen_subcommand_from elements' -s h -l help -d 'Print this help message and exit'
 complete -c allpairs -n '__fish_seen_subcommand_from elements' -l distance -x -d 'Report candidates up to D apart on every axis'
 complete -c allpairs -n '__fish_seen_subcommand_from elements' -l between -d 'Only candidates between two meshes'
@@ -122,6 +122,7 @@ complete -c allpairs -n '__fish_seen_subcommand_from view' -l exact -d 'Test sha
 complete -c allpairs -n '__fish_seen_subcommand_from view' -l boxes -d 'Show all pairs of boxes, as detect does, and test no shapes; the default for SOFA scenes'
 complete -c allpairs -n '__fish_seen_subcommand_from view' -l group -x -a 'body assembly file none' -d 'What is one row: pairs of the same two bodies, assemblies or files, or each pair of models'
 complete -c allpairs -n '__fish_seen_subcommand_from view' -l up -x -a 'x y z' -d 'The axis that points up; by default as the format says, else z'
+complete -c allpairs -n '__fish_seen_subcommand_from view' -l threads -x -d 'Number of threads; 0: one per core'
 complete -c allpairs -n '__fish_seen_subcommand_from view' -l sequence -d 'Each INPUT is one frame of the same meshes: show pairs of triangles, frame by frame'
 complete -c allpairs -n '__fish_seen_subcommand_from view' -s o -l output -r -F -d 'Write to FILE, which appears only when complete; -: standard output'
 complete -c allpairs -n '__fish_seen_subcommand_from view' -l open -d 'Open the page in the browser'
@@ -144,6 +145,7 @@ complete -c allpairs -n '__fish_seen_subcommand_from report' -l exact -d 'Test s
 complete -c allpairs -n '__fish_seen_subcommand_from report' -l boxes -d 'Show all pairs of boxes, as detect does, and test no shapes; the default for SOFA scenes'
 complete -c allpairs -n '__fish_seen_subcommand_from report' -l group -x -a 'body assembly file none' -d 'What is one row: pairs of the same two bodies, assemblies or files, or each pair of models'
 complete -c allpairs -n '__fish_seen_subcommand_from report' -l up -x -a 'x y z' -d 'The axis that points up; by default as the format says, else z'
+complete -c allpairs -n '__fish_seen_subcommand_from report' -l threads -x -d 'Number of threads; 0: one per core'
 complete -c allpairs -n '__fish_seen_subcommand_from report' -s o -l output -x -a '(__fish_complete_directories)' -d 'Write to the folder DIR; it is created if missing'
 complete -c allpairs -n '__fish_seen_subcommand_from report' -l force -d 'Write to DIR although it holds other files'
 complete -c allpairs -n '__fish_seen_subcommand_from report' -l bcf -x -a '2.1 3.0' -d 'Version of clashes.bcf'

@@ -58,7 +58,8 @@ void addReadLimits(CLI::App& command, ReadLimits& limits) {
 void addInputs(CLI::App& command, InputSettings& settings) {
   command.add_option("INPUT", settings.paths, "Scenes, meshes, folders of meshes, box arrays; taken together")
       ->required()
-      ->type_name("");
+      ->type_name("")
+      ->check([](const std::string& name) { return std::string(name.empty() ? "the name of an input is empty" : ""); });
   command.add_flag("--recursive", settings.recursive, "Of a folder, also read the meshes of the folders within it");
   command.add_flag("--partial", settings.partial, "Ignore what cannot be placed or read");
   command
@@ -127,7 +128,7 @@ std::string formatOf(const std::string& format, const std::string& output, const
   if (named != formats.end()) return *named;
   if (extension.empty() || extension == ".txt") return formats.front();
   throw UsageError(
-      fmt::format("-o: '{}' ends in no format that can be written, which are .txt and .{}; --format says which "
+      fmt::format("-o: '{}' ends in no format that can be written, which are .txt, .{}; --format says which "
                   "one it is",
                   output, fmt::join(formats.begin() + 1, formats.end(), ", .")));
 }

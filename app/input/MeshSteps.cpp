@@ -66,7 +66,8 @@ std::vector<TriangleMesh> readTriangleMeshes(const InputSettings& settings, std:
     const std::string file = scene.files[scene.sources[i].file].filename().string();
     mesh.isNamed = mesh.name.find(file) == std::string::npos;
   }
-  if (meshes.empty()) throw FileError(path, "holds no triangles");
+  if (meshes.empty())
+    throw FileError(path, scene::isBoxArrayFile(path) ? "holds boxes, and no triangles" : "holds no triangles");
   if (const std::size_t left = scene.models.size() - meshes.size(); left != 0 && isFirst)
     warnOf(settings, {{.file = path, .subject = {}, .reason = counted(left, "model") + " left out: no triangle mesh"}});
   return meshes;

@@ -35,6 +35,7 @@
 #include "allpairs/parallel/TbbExecutor.h"
 #include "allpairs/scene/BoxFrames.h"
 #include "allpairs/scene/FileError.h"
+#include "cli/Arguments.h"
 #include "cli/ExitStatus.h"
 #include "cli/Options.h"
 #include "cli/Progress.h"
@@ -130,10 +131,11 @@ class Painters {
 };
 
 /// The pictures of the first clashes as PNG files, by number.
-std::vector<std::string> drawPictures(const view::ViewScene& scene, std::span<const view::Clash> clashes) {
+std::vector<std::string> drawPictures(const view::ViewScene& scene, std::span<const view::Clash> clashes,
+                                      std::size_t threads) {
   constexpr std::size_t kTogether = 16;  // pictures; then the line shows how far it is
   ProgressLine line;
-  parallel::TbbExecutor executor;
+  parallel::TbbExecutor executor(threads);
   std::vector<std::string> pictures(clashes.size());
   if (clashes.empty()) return pictures;
   const view::Overview overview(scene);
@@ -215,7 +217,7 @@ std::size_t writeReport(const view::ViewScene& scene, const ReportSettings& sett
   std::optional<view::Since> since;
   if (earlier) since = view::compareWith(earlier->rows, earlier->name, scene, clashes);
   const auto pictured = std::span(clashes).first(std::min(clashes.size(), settings.pictures));
-  const std::vector<std::string> pictures = drawPictures(scene, pictured);
+  const std::vector<std::string> pictures = drawPictures(scene, pictured, parseThreads(settings.view.threads));
   view::BcfOptions options;
   options.version = settings.bcf == "3.0" ? view::BcfVersion::V30 : view::BcfVersion::V21;
   options.metresPerUnit = settings.metresPerUnit.value_or(scene.metresPerUnit.value_or(1.0));

@@ -228,7 +228,7 @@ view::ViewScene makeViewScene(const InputSettings& input, const ViewRequest& req
   result.statistics.readSeconds = readSeconds;
   result.up = request.up.value_or(result.up);
   constexpr std::size_t kMostSides = 500;  // as many as a report has pictures
-  parallel::TbbExecutor executor;
+  parallel::TbbExecutor executor(request.detection.threads);
   view::chooseSides(result, kMostSides, executor);
   return result;
 }

@@ -5,6 +5,7 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 
+#include "cli/Arguments.h"
 #include "cli/ExitStatus.h"
 #include "cli/Options.h"
 #include "detect/Exact.h"
@@ -21,6 +22,7 @@ void addViewOptions(CLI::App& command, ViewArguments& arguments) {
       ->capture_default_str();
   addChoice(command, "--up", arguments.up, {"x", "y", "z"})
       ->description("The axis that points up; by default as the format says, else z");
+  addThreads(command, arguments.threads);
 }
 
 ViewRequest viewRequest(const ViewArguments& arguments) {
@@ -30,6 +32,7 @@ ViewRequest viewRequest(const ViewArguments& arguments) {
   if (arguments.boxes && arguments.search.leastDepth)
     throw UsageError("--min-depth is of shapes, which --boxes does not test");
   ViewRequest request{.detection = detectionOptions(arguments.search), .shapes = ShapeTest::WhereShapesAre};
+  request.detection.threads = parseThreads(arguments.threads);
   if (arguments.exact || arguments.search.clearance || arguments.search.leastDepth) request.shapes = ShapeTest::Always;
   if (arguments.boxes) request.shapes = ShapeTest::Never;
   if (request.shapes == ShapeTest::Always) requireExact();

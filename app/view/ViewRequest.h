@@ -33,9 +33,10 @@ struct ViewArguments {
   bool boxes = false;
   std::string group = "body";
   std::string up;
+  std::string threads = "0";
 };
 
-/// Declares --distance, --box, --clearance, --exact, --boxes, --group and --up.
+/// Declares --distance, --box, --clearance, --exact, --boxes, --group, --up and --threads.
 void addViewOptions(CLI::App& command, ViewArguments& arguments);
 
 /// Bad input: UsageError for values that are none, for --exact in a program that has not the library for it, and for

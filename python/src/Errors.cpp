@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
 // C++ exceptions become those of allpairs._errors, which are plain Python.
+#include <algorithm>
 #include <exception>
+#include <string>
+#include <string_view>
 #include <system_error>
+#include <utility>
 
 #include "Bindings.h"
 #include "allpairs/Error.h"
@@ -19,6 +23,27 @@ void raise(const char* name, Arguments&&... arguments) {
   PyErr_SetObject(type.ptr(), error.ptr());
 }
 
+/// The text with the arguments of load() in the place of the options of the command, which reads alike.
+std::string withArguments(std::string text, std::size_t begin) {
+  static constexpr std::pair<std::string_view, std::string_view> kNames[] = {{" of detect, info, view and report", ""},
+                                                                             {"--data DIR", "search_roots"},
+                                                                             {"--data", "search_roots"},
+                                                                             {"--max-memory", "max_memory"},
+                                                                             {"--allow-outside", "allow_outside"},
+                                                                             {"--partial", "partial"},
+                                                                             {"--recursive", "recursive"}};
+  for (const auto& [option, argument] : kNames) {
+    for (std::size_t at = text.find(option, begin); at != std::string::npos; at = text.find(option, at))
+      text.replace(at, option.size(), argument);
+  }
+  return text;
+}
+
+/// What a FileError says, from behind its path on in words of Python.
+std::string whatOf(const FileError& error) {
+  return withArguments(error.what(), std::min(error.path().string().size(), std::string_view(error.what()).size()));
+}
+
 /// The errno of Python's OSError; None where the system has not said anything.
 py::object numberOf(const std::error_code& code) {
   if (!code) return py::none();
@@ -33,7 +58,7 @@ void translate(std::exception_ptr pointer) {
   } catch (const LimitExceeded& error) {
     raise("LimitExceeded", textOf(error.what()), error.count());
   } catch (const FileError& error) {
-    raise("FileError", textOf(error.what()), pathOf(error.path()), error.line(), error.column(),
+    raise("FileError", textOf(whatOf(error)), pathOf(error.path()), error.line(), error.column(),
           numberOf(error.code()));
   } catch (const InvalidArgument& error) {
     raise("InvalidArgument", textOf(error.what()));

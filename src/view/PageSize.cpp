@@ -30,7 +30,7 @@ void checkPageSize(const ViewScene& scene, std::size_t frames, std::size_t bytes
   if (bytes <= kMostBytes) return;
   const bool isSequence = frames > 1 || !scene.corners.empty();
   throw Error(fmt::format(
-      "{} models and their pairs are too much for one page, which holds {} MiB: {}", scene.modelCount,
+      "{}: {} models and their pairs are too much for one page, which holds {} MiB: {}", scene.title, scene.modelCount,
       kMostBytes >> 20U,
       isSequence ? "give fewer frames, or a smaller distance" : "give a smaller distance, or fewer inputs"));
 }

@@ -66,7 +66,8 @@ std::string escapeHtml(std::string_view text) {
 
 bool looksLikeFormula(std::string_view text) {
   constexpr std::string_view kFormulaBegins = "=+-@\t\r";
-  return !text.empty() && kFormulaBegins.find(text.front()) != std::string_view::npos;
+  const std::size_t begin = text.find_first_not_of('\'');
+  return begin != std::string_view::npos && kFormulaBegins.find(text[begin]) != std::string_view::npos;
 }
 
 }  // namespace allpairs::view

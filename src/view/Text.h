@@ -16,7 +16,8 @@ namespace allpairs::view {
 /// The printable text, escaped for HTML: between tags and in quoted attributes.
 [[nodiscard]] std::string escapeHtml(std::string_view text);
 
-/// Whether a spreadsheet may take a cell with this text for a formula.
+/// Whether a spreadsheet may take a cell with this text for a formula, or would without the apostrophes before it. Such
+/// a text is written with one more apostrophe, which is taken off when it is read.
 [[nodiscard]] bool looksLikeFormula(std::string_view text);
 
 }  // namespace allpairs::view

@@ -93,6 +93,8 @@ TEST(MistypedWords, GetASuggestionWhereTheyResembleOne) {
   expectUsage({"--verify", "detect", "a.npy"}, "the option '--verify' comes behind 'detect' (see");
   expectUsage({"bench", "uniform", "--seed", "99999999999999999999"},
               "--seed: '99999999999999999999' is too large (see");
+  expectUsage({"generate", "uniform", "-n", "-1"}, "-n, --boxes: '-1' is not a whole number from 0 on (see");
+  expectUsage({"detect", ""}, "the name of an input is empty (see");
   for (const std::string value : {"-1", "1.5", "1e999", "many"}) {
     expectUsage({"report", "a.obj", "-o", "b", "--pictures", value},
                 "--pictures: '" + value + "' is not a whole number from 0 on (see");

@@ -133,7 +133,7 @@ TEST(OutputFile, OfANameThatEndsInNoFormatIsWrongUsage) {
   for (const char* name : {"pairs.xml", "pairs.npz", "a.b/../pairs.txt.bak"}) {
     const std::string file = folder.path() / name;
     expectFailure(runProgram({"detect", boxes, "-o", file}), 2,
-                  "ends in no format that can be written, which are .txt and .csv");
+                  "ends in no format that can be written, which are .txt, .csv");
     EXPECT_FALSE(std::filesystem::exists(file));
   }
   expectFailure(runProgram({"view", boxes, "-o", folder.path() / "page.pdf"}), 2, "a page is written as .html");

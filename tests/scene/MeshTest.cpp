@@ -223,19 +223,32 @@ TEST(MeshFolder, NothingStaysOfAFileThatIsLeftOutMidway) {
   EXPECT_TRUE(scene.remarks.front().isPartial);
 }
 
+TEST(MeshFolder, OfCadFilesAloneHasNoHintThatWouldLeaveNothing) {
+  const TempFolder folder;
+  folder.write("gear.STEP", "ISO-10303-21;");
+  try {
+    (void)scene::readInput(folder.path());
+    ADD_FAILURE() << "it was read";
+  } catch (const FileError& error) {
+    EXPECT_EQ(error.problem().find("--partial"), std::string::npos) << error.what();
+  }
+}
+
 TEST(MeshFolder, ACadFileIsAnErrorUnlessPartialOrThereAsAMeshToo) {
   const TempFolder folder;
   const std::string mesh = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
   folder.write("cube.obj", mesh);
   folder.write("gear.STEP", "ISO-10303-21;");
-  expectFileError([&] { (void)scene::readInput(folder.path()); }, "; --partial leaves it out");
+  expectFileError([&] { (void)scene::readInput(folder.path()); },
+                  "; --partial of detect, info, view and report leaves it out");
   const scene::Scene partial = scene::readInput(folder.path(), {.partial = true});
   EXPECT_EQ(partial.models.size(), 1U);
   ASSERT_EQ(partial.remarks.size(), 1U);
   EXPECT_TRUE(partial.remarks[0].isPartial);
   EXPECT_EQ(textOf(partial.remarks[0]).find((folder.path() / "gear.STEP").string() + ": has the exact surfaces"), 0U);
   std::filesystem::create_directory(folder.path() / "gear.stl");  // is no mesh
-  expectFileError([&] { (void)scene::readInput(folder.path()); }, "; --partial leaves it out");
+  expectFileError([&] { (void)scene::readInput(folder.path()); },
+                  "; --partial of detect, info, view and report leaves it out");
   std::filesystem::remove(folder.path() / "gear.stl");
   folder.write("gear.obj", mesh);
   const scene::Scene whole = scene::readInput(folder.path());

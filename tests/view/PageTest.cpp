@@ -160,6 +160,7 @@ TEST(View, SaysWhatIsWrongWithMeshesOverTime) {
 TEST(PageSize, MoreThanAPageHoldsIsRefusedWithAdvice) {
   view::ViewScene scene;
   scene.modelCount = 7;
+  scene.title = "a.obj";
   view::checkPageSize(scene, 1, 1U << 20U);
   const auto complaint = [&scene](std::size_t frames) {
     try {
@@ -169,6 +170,7 @@ TEST(PageSize, MoreThanAPageHoldsIsRefusedWithAdvice) {
       return std::string(error.what());
     }
   };
+  EXPECT_TRUE(complaint(1).starts_with("a.obj: 7 models ")) << complaint(1);
   EXPECT_NE(complaint(1).find("a smaller distance, or fewer inputs"), std::string::npos) << complaint(1);
   EXPECT_NE(complaint(2).find("fewer frames, or a smaller distance"), std::string::npos) << complaint(2);
   scene.corners = {0, 1, 2};

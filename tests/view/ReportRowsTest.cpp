@@ -378,5 +378,28 @@ TEST(Report, HasTheNearestFirstOfBoxesThatOnlyLieWithinADistance) {
   EXPECT_EQ(rows[1].at("overlap_z"), "-3");
 }
 
+#ifdef ALLPAIRS_HAS_FCL
+TEST(ReportOfSeveralInputs, TestsShapesAlthoughOneOfThemIsAScene) {
+  const TempFolder folder;
+  const std::string a = folder.write("a.obj", "o a\n" + kTriangle);
+  const std::string b = folder.write("b.obj", "o b\nv 0.9 0.9 0.1\nv 0.9 0.9 0.8\nv 0.9 0.8 0.1\nf 1 2 3\n");
+  const std::string scene =
+      folder.write("s.scn",
+                   "<Node name='root'><CollisionPipeline/><BruteForceDetection/><DiscreteIntersection/>"
+                   "<MechanicalObject position='9 9 9'/><SphereCollisionModel name='s'/></Node>");
+  const auto tested = [&](std::vector<std::string> words) {
+    words.insert(words.begin(), "report");
+    words.insert(words.end(), {"-o", folder.path() / "out", "--threads", "1"});
+    EXPECT_EQ(runProgram(words).status, 0);
+    const std::string page = readBytes(folder.path() / "out/index.html");
+    return page.substr(page.find("<dt>Tested</dt><dd>") + 19, 6);
+  };
+  EXPECT_EQ(tested({a, b}), "shapes");
+  EXPECT_EQ(tested({a, b, scene}), "shapes");
+  EXPECT_EQ(rowsOf(folder.path() / "out").size(), 0U) << "boxes overlap, and triangles are apart";
+  EXPECT_EQ(tested({scene}), "boxes<");
+}
+#endif
+
 }  // namespace
 }  // namespace allpairs::test

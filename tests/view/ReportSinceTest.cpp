@@ -95,9 +95,9 @@ TEST(ReportSince, TopicsOfWhatIsResolvedHaveTheHeaderOfTheirVersion) {
   const TempFolder folder;
   const std::string parts = folder.path() / "parts";
   folder.write("parts/a.obj", "o a\n" + kTriangle);
-  folder.write("parts/b.obj", "o 'b\n" + kTriangle);
+  folder.write("parts/b.obj", "o '=b\n" + kTriangle);
   expectSuccess(runProgram({"report", parts, "--boxes", "-o", folder.path() / "before"}));
-  folder.write("parts/b.obj", "o 'b\nv 9 9 9\nv 10 9 9\nv 9 10 10\nf -3 -2 -1\n");
+  folder.write("parts/b.obj", "o '=b\nv 9 9 9\nv 10 9 9\nv 9 10 10\nf -3 -2 -1\n");
   for (const std::string version : {"2.1", "3.0"}) {
     const fs::path out = folder.path() / version;
     expectSuccess(
@@ -107,7 +107,7 @@ TEST(ReportSince, TopicsOfWhatIsResolvedHaveTheHeaderOfTheirVersion) {
       if (!name.ends_with("markup.bcf")) continue;
       const pugi::xml_document document = parse(bytes);
       EXPECT_STREQ(document.child("Markup").child("Topic").attribute("TopicStatus").value(), "Closed");
-      EXPECT_STREQ(document.child("Markup").child("Topic").child_value("Title"), "'b and a");
+      EXPECT_STREQ(document.child("Markup").child("Topic").child_value("Title"), "'=b and a");
       const pugi::xml_node header = document.child("Markup").child("Header");
       const bool isThree = version == "3.0";
       const pugi::xml_node file = isThree ? header.child("Files").child("File") : header.child("File");

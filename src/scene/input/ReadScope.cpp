@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kMissing = "is nowhere to be found; --data DIR (search_roots) says where else to look";
+constexpr const char* kMissing = "is nowhere to be found; --data DIR says where else to look";
 constexpr const char* kSpecial = "is not a regular file";
 
 /// The folder whose files an input may name: itself, where it is one.

@@ -26,6 +26,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Of a folder that has other files to read; the other commands do not take it.
+constexpr const char* kPartialHint = "; --partial of detect, info, view and report leaves it out";
+
 std::vector<MeshObject> readObjects(const fs::path& path, ReadScope& scope, MeshFrame& frame) {
   scope.admit(path);
   const std::string extension = lowerExtension(path);
@@ -132,7 +135,7 @@ class MeshSearch {
   /// CAD files cannot be read. Where the part is not there as a mesh too, its clashes would be missing without a warning.
   void takeCad(const fs::path& entry, bool isThereAsMesh) {
     if (isThereAsMesh) return remarkOn(entry, "is a CAD file beside a mesh of the same name, which is taken");
-    if (!m_options.partial) throw FileError(entry, std::string(kIsCad) + "; --partial leaves it out");
+    if (!m_options.partial) throw FileError(entry, kIsCad + std::string(m_meshes.empty() ? "" : kPartialHint));
     m_remarks.push_back(remarkOfMissing(entry, FileError(entry, kIsCad)));
   }
 
@@ -203,9 +206,9 @@ void readInto(Scene& scene, const fs::path& path, ReadScope& scope) {
 }  // namespace
 
 bool isMeshFile(const fs::path& path) {
+  if (isSceneFile(path) || isBoxArrayFile(path)) return false;
   const std::string extension = lowerExtension(path);
   return extension == ".obj" || extension == ".ply" || isAssimpFile(path);
-  if (isSceneFile(path) || isBoxArrayFile(path)) return false;
 }
 
 Scene readMesh(const fs::path& path, const ReadOptions& options) {
