@@ -52,7 +52,9 @@ def at(place: Place) -> Iterator[None]:
         if place.is_file:
             raise file_error(place.called, problem) from None
         if isinstance(problem, InvalidBox):
-            raise InvalidArgument(f"box {place.begin + problem.index} of {place.called}: {problem}") from None
+            index = place.begin + problem.index
+            what = str(problem).removeprefix(f"box {problem.index}: ")
+            raise InvalidBox(f"box {index} of {place.called}: {what}", index) from None
         raise
 
 

@@ -204,14 +204,15 @@ def test_files_in_and_files_out(tmp_path):
 def test_what_is_wrong_is_named(tmp_path):
     boxes = boxes_of("uniform", np.float32)
     boxes[1234, 1] = np.nan
-    with pytest.raises(allpairs.InvalidArgument, match="box 1234 of all"):
+    with pytest.raises(allpairs.InvalidBox, match="^box 1234 of all: min y is not a number") as error:
         allpairs.dask.overlaps(dask.array.from_array(boxes, chunks=(1000, 6)), cells=2).compute()
+    assert error.value.index == 1234
     with pytest.raises(allpairs.InvalidArgument, match=r"shape \(3000, 5\)"):
         allpairs.dask.overlaps(dask.array.from_array(boxes[:, :5]))
     with pytest.raises(allpairs.InvalidArgument, match="no file"):
         allpairs.dask.overlaps([])
     good = dask.array.from_array(boxes[:1000], chunks=(1000, 6))
-    with pytest.raises(allpairs.InvalidArgument, match="box 1234 of the second set"):
+    with pytest.raises(allpairs.InvalidBox, match="^box 1234 of the second set: min y is not a number"):
         allpairs.dask.overlaps(good, second=dask.array.from_array(boxes, chunks=(1000, 6))).compute()
     with pytest.raises(allpairs.InvalidArgument, match=r"second has shape \(3000, 5\)"):
         allpairs.dask.overlaps(good, second=dask.array.from_array(boxes[:, :5]))
