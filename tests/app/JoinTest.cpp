@@ -250,6 +250,18 @@ TEST_F(JoinCommand, APlanLeavesNothing) {
   EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), 2);
 }
 
+TEST_F(JoinCommand, APlanTakesTheWorkFolderThatAJoinWouldMake) {
+  for (const char* name : {"new", "new/"}) {
+    const ProgramRun run = runProgram({"plan", few, "--memory", "64M", "--work", in(name)});
+    expectSuccess(run);
+    EXPECT_NE(run.out.find("\ntime     about "), std::string::npos) << run.out;
+  }
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), 1);
+  const ProgramRun nowhere = runProgram({"plan", few, "--work", in("none/new")});
+  EXPECT_EQ(nowhere.status, kBadInput);
+  EXPECT_NE(nowhere.err.find("none/new: no folder can be made in it"), std::string::npos) << nowhere.err;
+}
+
 TEST(PlanCommand, LeavesNothingWhereASignalEndsIt) {
   const TempFolder folder;
   const std::string boxes = folder.write("boxes.npy", npyBytes(toDouble(randomBoxes(300, 5))));
