@@ -55,6 +55,10 @@ void addReadLimits(CLI::App& command, ReadLimits& limits) {
       });
 }
 
+void addBetweenInputs(CLI::App& command, InputSettings& settings) {
+  command.add_flag("--between-inputs", settings.betweenInputs, "Leave out pairs of two models of the same input");
+}
+
 void addInputs(CLI::App& command, InputSettings& settings) {
   command.add_option("INPUT", settings.paths, "Scenes, meshes, folders of meshes, box arrays; taken together")
       ->required()

@@ -28,7 +28,8 @@ struct InputSettings {
   std::vector<std::string> searchRoots;
   bool partial = false;
   bool recursive = false;
-  std::string sofa{};  ///< As which SOFA to read, "24.06"; empty for the default.
+  bool betweenInputs = false;  ///< Two models of one input are no pair.
+  std::string sofa{};          ///< As which SOFA to read, "24.06"; empty for the default.
   ReadLimits limits{};
   std::vector<std::filesystem::path> outputs{};  ///< Files that are written, which may be none that is read.
   const SpooledInputs* spooled = nullptr;        ///< Knows what paths that are temporary files stand for.
@@ -39,6 +40,9 @@ void addReadLimits(CLI::App& command, ReadLimits& limits);
 
 /// Declares these, INPUT..., --partial and --data, which every command that reads has.
 void addInputs(CLI::App& command, InputSettings& settings);
+
+/// Declares --between-inputs.
+void addBetweenInputs(CLI::App& command, InputSettings& settings);
 
 /// Declares an option whose value is one of a few words.
 CLI::Option* addChoice(CLI::App& command, const std::string& name, std::string& value,

@@ -65,6 +65,7 @@ Examples:
   allpairs detect scene.scn
   allpairs detect Demos/chain.scn --data share/sofa --data share/sofa/examples
   allpairs detect parts/ --distance 0.5
+  allpairs detect structure.glb pipes.glb --between-inputs
   allpairs detect parts/ --exact --clearance 0.5
   allpairs detect parts/ --exact --min-depth 0.05 --fail-on clash
   allpairs detect boxes.npy -o pairs.npy
@@ -132,11 +133,13 @@ Detection withClock(std::size_t count, const Work& work) {
   return work();
 }
 
-Outcome detect(const BoxInput& input, const DetectSettings& settings, const DetectionOptions& options) {
+Outcome detect(const BoxInput& input, const DetectSettings& settings, DetectionOptions options) {
+  options.groups = input.groups;
   const scene::BoxArray& boxes = input.boxes;
   const BoxPairOrder order = settings.format == "npy" ? BoxPairOrder::FirstBelowSecond : BoxPairOrder::NewestFirst;
   Outcome outcome{.detection = withClock(boxes.size(), [&] { return detectBoxes(boxes, order, options); }),
-                  .notes = {.method = boxMethod(options.distance, options.region), .simulated = boxes.size()}};
+                  .notes = {.method = boxMethod(options.distance, options.region) + betweenText(settings.input),
+                            .simulated = boxes.size()}};
   outcome.result.modelCount = boxes.size();
   outcome.result.model = [&boxes](std::size_t i) { return boxRecord(boxes, i); };
   outcome.result.warnings = input.warnings;
@@ -168,7 +171,7 @@ Outcome detect(scene::Scene& scene, const DetectSettings& settings, const Detect
     outcome.exact =
         examine(scene, outcome.detection.pairs, {.clearance = options.clearance, .leastDepth = options.leastDepth});
   const auto& models = scene.models;
-  outcome.notes.method = methodText(scene);
+  outcome.notes.method = methodText(scene) + betweenText(settings.input);
   outcome.notes.remarkCount = scene.remarks.size();
   outcome.notes.isPartial = settings.input.partial;
   outcome.result.ignored = scene.remarks;
@@ -179,13 +182,8 @@ Outcome detect(scene::Scene& scene, const DetectSettings& settings, const Detect
   return outcome;
 }
 
-/// Boxes become models, which have shapes.
 void makeScene(Inputs& inputs) {
-  auto* input = std::get_if<BoxInput>(&inputs);
-  if (input == nullptr) return;
-  scene::Scene scene = scene::toScene(input->boxes);
-  scene.warnings = std::move(input->warnings);
-  inputs = std::move(scene);
+  if (const auto* input = std::get_if<BoxInput>(&inputs)) inputs = toScene(*input);
 }
 
 /// What --why is given with changes the pairs, and does not ask for them.
@@ -220,6 +218,8 @@ void runDetect(const DetectSettings& settings, const DetectionOptions& options) 
   if (!settings.why.empty()) return explain(settings, options, output);
   if (settings.worlds) {
     if (settings.exact) throw UsageError("--exact tests shapes; the boxes of --worlds have none");
+    if (settings.input.betweenInputs)
+      throw UsageError("--between-inputs is of several inputs; --worlds takes one array");
     const std::size_t pairs = detectWorlds(settings.input, options, settings.format, output);
     output.commit();
     if (!settings.output.empty()) sayWritten(counted(pairs, "pair"), settings.output);
@@ -262,6 +262,7 @@ void addDetect(CLI::App& program) {
   CLI::App* command = program.add_subcommand("detect", "Find the pairs of models that may touch");
   command->footer(kDetectExamples);
   addInputs(*command, settings->input);
+  addBetweenInputs(*command, settings->input);
   addSearchOptions(*command, settings->search);
   addStrategy(*command, settings->strategy);
   addThreads(*command, settings->threads);

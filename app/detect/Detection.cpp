@@ -28,6 +28,7 @@ OverlapOptions overlapOptions(const DetectionOptions& options, Executor* executo
   engine.strategy = options.strategy;
   engine.distance = options.distance.value_or(0.0);
   engine.region = options.region;
+  engine.filter.first.groups = options.groups;
   engine.executor = executor;
   return engine;
 }

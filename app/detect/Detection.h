@@ -27,6 +27,7 @@ struct DetectionOptions {
   Strategy strategy = Strategy::Automatic;
   std::size_t threads = 0;  ///< 0: as many as the machine runs at once.
   bool verify = false;
+  std::span<const std::uint32_t> groups{};  ///< Of boxes: two of the same group are no pair.
 };
 
 /// The pairs of one detection. `pairs` lies in the memory of one of the members below it.

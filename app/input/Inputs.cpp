@@ -71,6 +71,8 @@ BoxInput readBoxArrays(const InputSettings& settings, const scene::ReadOptions& 
     empty.look(boxes.boxes(), 0);
     const auto nameOf = [&boxes](std::size_t i) { return boxes.name(i); };
     remarkOnEmpty(empty, shownPath(settings, path), nameOf, input.warnings);
+    const auto group = static_cast<std::uint32_t>(arrays.size());
+    if (settings.betweenInputs) input.groups.insert(input.groups.end(), boxes.size(), group);
   }
   input.boxes = scene::BoxArray::concatenate(std::move(arrays));
   return input;
@@ -97,6 +99,9 @@ scene::Scene readScene(const InputSettings& settings, std::size_t input, const s
     const auto nameOf = [&scene](std::size_t i) { return scene.models[i]->getName(); };
     remarkOnEmpty(empty, path, nameOf, scene.warnings);
   }
+  for (const auto& model : scene.models) {
+    if (settings.betweenInputs) model->addGroup(static_cast<int>(input) + 1);
+  }
   if (settings.spooled != nullptr)
     nameAsGiven(*settings.spooled, scene);  // models are named by it when others are there
   return scene;
@@ -108,6 +113,16 @@ scene::Scene readScenes(const InputSettings& settings, const scene::ReadOptions&
   for (std::size_t i = 1; i < settings.paths.size(); ++i) others.push_back(readScene(settings, i, options));
   scene::append(scene, std::move(others));
   return scene;
+}
+
+void checkBetween(const InputSettings& settings) {
+  if (!settings.betweenInputs) return;
+  if (settings.paths.size() < 2)
+    throw UsageError("--between-inputs leaves out pairs within one input: give two or more");
+  for (const std::string& path : settings.paths) {
+    if (scene::isSceneFile(path))
+      throw UsageError("--between-inputs is not for SOFA scenes, whose groups say what is no pair: " + path);
+  }
 }
 
 std::string pipelineText(const scene::ScenePipeline& pipeline) {
@@ -147,6 +162,7 @@ std::filesystem::path shownPath(const InputSettings& settings, const std::string
 }
 
 Inputs readInputs(const InputSettings& settings) {
+  checkBetween(settings);
   ProgressLine line;
   const scene::ReadOptions options = readOptions(settings, line);
   const bool areBoxes = std::all_of(settings.paths.begin(), settings.paths.end(),
@@ -160,6 +176,17 @@ Inputs readInputs(const InputSettings& settings) {
   warnOf(settings, scene.warnings);
   checkOutputs(settings, scene.inputs);
   return scene;
+}
+
+scene::Scene toScene(const BoxInput& input) {
+  scene::Scene scene = scene::toScene(input.boxes);
+  scene.warnings = input.warnings;
+  for (std::size_t i = 0; i < input.groups.size(); ++i) scene.models[i]->addGroup(static_cast<int>(input.groups[i]));
+  return scene;
+}
+
+std::string betweenText(const InputSettings& settings) {
+  return settings.betweenInputs ? "; pairs of different inputs only" : "";
 }
 
 void checkOutputs(const InputSettings& settings) { checkOutputs(settings, pathsOf(settings.paths)); }

@@ -22,6 +22,7 @@ namespace allpairs::app {
 struct BoxInput {
   scene::BoxArray boxes;
   std::vector<scene::Remark> warnings;
+  std::vector<std::uint32_t> groups{};  ///< Of each box, if boxes of one group are no pair.
 };
 
 /// What the inputs hold together: boxes where all are box arrays, else a scene of models.
@@ -38,6 +39,12 @@ void withInputs(InputSettings& settings, const std::function<void()>& work);
 
 /// Reads the inputs and puts them together in the order given. Warnings are in the result and on standard error.
 [[nodiscard]] Inputs readInputs(const InputSettings& settings);
+
+/// Boxes as models, which have shapes.
+[[nodiscard]] scene::Scene toScene(const BoxInput& input);
+
+/// What --between-inputs adds to the words for how models are tested.
+[[nodiscard]] std::string betweenText(const InputSettings& settings);
 
 /// Makes sure that what is written takes the place of none of the inputs, or of none of these files that they name.
 ///

@@ -77,6 +77,7 @@ Examples:
   allpairs report parts/ -o report
   allpairs report assembly.glb --clearance 0.01 -o report --pictures 100
   allpairs report parts/ --metres-per-unit 0.001 -o report
+  allpairs report structure.ifc pipes.ifc --between-inputs -o report
   allpairs report building.ifc --since monday -o tuesday --bcf 3.0)";
 
 /// The report that this one is compared with.
@@ -188,6 +189,7 @@ std::vector<view::ReportFact> factsOf(const ReportSettings& settings, const view
   if (settings.view.search.distance) facts.push_back({"Distance", view::shortNumber(scene.distance)});
   if (scene.isExact) facts.push_back({"Clearance", view::shortNumber(scene.clearance)});
   facts.push_back({"Rows", rows.at(settings.view.group)});
+  if (settings.input.betweenInputs) facts.push_back({"Left out", "pairs within one input"});
   facts.push_back({"Lengths", unitOf(settings, scene)});
   facts.push_back({"Up", std::string(scene.up < 0 ? "-" : "") + "xyz"[std::abs(scene.up) - 1]});
   return facts;
@@ -299,6 +301,7 @@ void addReport(CLI::App& program) {
       program.add_subcommand("report", "Write a folder with a page, a table and a BCF file of the pairs");
   command->footer(kReportExamples);
   addInputs(*command, settings->input);
+  addBetweenInputs(*command, settings->input);
   addViewOptions(*command, settings->view);
   command->add_option("-o,--output", settings->folder, "Write to the folder DIR; it is created if missing")
       ->type_name("DIR");

@@ -195,18 +195,27 @@ void addBoxNames(const scene::BoxArray& boxes, view::ViewScene& to) {
   if (areIndices) to.names.clear();
 }
 
+/// Of boxes, each of which is in one group.
+void addGroups(const std::vector<std::uint32_t>& groups, view::ViewScene& to) {
+  if (groups.empty()) return;
+  to.groups = groups;
+  for (std::uint32_t group = 1; group <= groups.back(); ++group) to.groupSets.push_back({static_cast<int>(group)});
+}
+
 void fill(const BoxInput& input, const ViewRequest& request, view::ViewScene& to) {
   const scene::BoxArray& from = input.boxes;
   if (request.shapes == ShapeTest::Always) {
-    scene::Scene scene = scene::toScene(from);
+    scene::Scene scene = toScene(input);
     fill(scene, request, to);
     return;
   }
-  const DetectionOptions& options = request.detection;
+  DetectionOptions options = request.detection;
+  options.groups = input.groups;
   to.method = boxMethod(options.distance, options.region);
   to.distance = options.distance.value_or(0.0);
   to.region = options.region;
   addBoxColumns(from.size(), to);
+  addGroups(input.groups, to);
   addBoxNames(from, to);
   const Detection detection = detectBoxes(from, BoxPairOrder::NewestFirst, options);
   view::ViewFrame frame = boxFrame(from.boxes(), options);
@@ -218,13 +227,17 @@ void fill(const BoxInput& input, const ViewRequest& request, view::ViewScene& to
 }  // namespace
 
 view::ViewScene makeViewScene(const InputSettings& input, const ViewRequest& request) {
-  if (isAnyBoxFrames(input.paths)) return makeViewFrames(input, request);
+  if (isAnyBoxFrames(input.paths)) {
+    if (input.betweenInputs) throw UsageError("--between-inputs is not for boxes in frames");
+    return makeViewFrames(input, request);
+  }
   view::ViewScene result;
   result.title = titleOf(input);
   const Timer timer;
   Inputs inputs = readInputs(input);
   const double readSeconds = timer.seconds();
   std::visit([&](auto& content) { fill(content, request, result); }, inputs);
+  result.method += betweenText(input);
   result.statistics.readSeconds = readSeconds;
   result.up = request.up.value_or(result.up);
   constexpr std::size_t kMostSides = 500;  // as many as a report has pictures

@@ -95,6 +95,8 @@ std::string whatIsIn(const view::ViewScene& scene) {
 
 view::ViewScene sceneOf(const ViewSettings& settings) {
   const ViewRequest request = viewRequest(settings.view);
+  if (settings.sequence && settings.input.betweenInputs)
+    throw UsageError("--between-inputs: the inputs of --sequence are one mesh at several times");
   return settings.sequence ? makeViewFrames(settings.input, request) : makeViewScene(settings.input, request);
 }
 
@@ -120,6 +122,7 @@ void addView(CLI::App& program) {
   CLI::App* command = program.add_subcommand("view", "Write an HTML page that shows models and pairs in 3D");
   command->footer(kViewExamples);
   addInputs(*command, settings->input);
+  addBetweenInputs(*command, settings->input);
   addViewOptions(*command, settings->view);
   command->add_flag("--sequence", settings->sequence,
                     "Each INPUT is one frame of the same meshes: show pairs of triangles, frame by frame");
