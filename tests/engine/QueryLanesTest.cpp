@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <limits>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include "kernels/Kernels.h"
@@ -107,6 +108,36 @@ TEST_P(QueryLanes, ABoxTouchesThoseThatItOverlaps) {
     touched += expected != 0 ? 1U : 0U;
   }
   EXPECT_GT(touched, 100U);
+}
+
+TEST_P(QueryLanes, VisitsFindInTheirOrderWhatEachBoxTouchesInItsBlock) {
+  std::size_t touched = 0;
+  for (std::size_t round = 0; round < 300; ++round) {
+    std::array<LaneBlock, 3> blocks;
+    for (LaneBlock& block : blocks) {
+      fill();
+      block = m_block;
+    }
+    std::array<LaneBox, 5> boxes;
+    for (LaneBox& box : boxes) box = m_numbers.box().lanes();
+    std::vector<std::uint32_t> boxOf(round % 20);
+    std::vector<std::uint32_t> blockOf(round % 20);
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> expected;
+    for (std::size_t i = 0; i < boxOf.size(); ++i) {
+      boxOf[i] = static_cast<std::uint32_t>(m_numbers.below(boxes.size()));
+      blockOf[i] = static_cast<std::uint32_t>(m_numbers.below(blocks.size()));
+      forEachBit(m_kernels.touchingLanes(blocks[blockOf[i]], boxes[boxOf[i]]),
+                 [&](std::size_t lane) { expected.emplace_back(boxOf[i], blockOf[i] * kFanOut + lane); });
+    }
+    std::vector<std::uint32_t> foundBox(boxOf.size() * kFanOut + kVectorSlack);
+    std::vector<std::uint32_t> places(foundBox.size());
+    const BlockVisits visits{boxes.data(), blocks.data(), boxOf.data(), blockOf.data(), boxOf.size()};
+    const std::size_t size = m_kernels.touchingPlaces(visits, foundBox.data(), places.data());
+    ASSERT_EQ(size, expected.size()) << "round " << round;
+    for (std::size_t i = 0; i < size; ++i) ASSERT_EQ(std::pair(foundBox[i], places[i]), expected[i]) << round;
+    touched += size;
+  }
+  EXPECT_GT(touched, 1000U);
 }
 
 /// Cells of a quarter or a half over a part of the grid, of which some are marked; on some axes there is only one.

@@ -217,6 +217,39 @@ TEST(WorldQuery, AnEmptyBoxOverlapsNothingNotEvenWhatLiesAroundIt) {
   }
 }
 
+/// A world of boxes along a line that overlap their neighbours, and queries of which some are empty and one overlaps all.
+void expectListsOfEachAlone(std::size_t boxes, std::size_t queries) {
+  World world;
+  for (std::size_t i = 0; i < boxes; ++i) {
+    const auto at = static_cast<double>(i * 7919 % boxes);
+    world.add(Box{{at, at / 3.0, 0.0}, {at + 1.5, at / 3.0 + 1.1, 1.0 / 3.0}});
+  }
+  std::vector<Box> asked;
+  for (std::size_t i = 0; i < queries; ++i) {
+    const auto at = static_cast<double>(i * 31 % boxes);
+    asked.push_back({{at, at / 3.0, 0.1}, {at + (i % 5 == 3 ? -1.0 : 2.5), at / 3.0 + 1.0, 1.0}});
+    if (i == queries / 2) asked.back() = {{-1.0, -1.0, -1.0}, {1e9, 1e9, 1.0}};
+  }
+  const ResultLists<BoxId> lists = world.findOverlapping(BoxView(std::span<const Box>(asked)));
+  ASSERT_EQ(lists.size(), queries);
+  for (std::size_t i = 0; i < queries; ++i) {
+    std::vector<BoxId> expected;
+    for (BoxId id = 0; id < boxes; ++id) {
+      if (!test::WorldOracle::apart(world.box(id), asked[i], 0.0)) expected.push_back(id);
+    }
+    ASSERT_EQ(std::vector<BoxId>(lists[i].begin(), lists[i].end()), expected) << boxes << " boxes, query " << i;
+    ASSERT_EQ(world.findOverlapping(asked[i]), expected) << boxes << " boxes, query " << i << " alone";
+  }
+}
+
+TEST(WorldQuery, BoxesThatAreAskedTogetherHaveTheListOfEachAlone) {
+  for (const std::size_t boxes : {1U, 16U, 17U, 300U, 5000U}) {
+    for (const std::size_t queries : {0U, 1U, 2U, 15U, 16U, 17U, 63U, 64U, 65U, 200U}) {
+      ASSERT_NO_FATAL_FAILURE(expectListsOfEachAlone(boxes, queries));
+    }
+  }
+}
+
 TEST(WorldQuery, ARayOfNoLengthIsItsOrigin) {
   World world;
   const BoxId id = world.add(Box{{0, 0, 0}, {1, 1, 1}});

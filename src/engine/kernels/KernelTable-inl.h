@@ -53,7 +53,8 @@ const Kernels* kernelTable() {
                              &touchingLanes,
                              &markedLanes,
                              &meetingLanes,
-                             &nearLanes};
+                             &nearLanes,
+                             &touchingPlaces};
   return &table;
 }
 

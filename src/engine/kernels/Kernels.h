@@ -196,6 +196,15 @@ struct MarkedCells {
   }
 };
 
+/// Boxes that descend a hierarchy together, at one level of it. In visit i, box boxOf[i] is tested with block blockOf[i].
+struct BlockVisits {
+  const LaneBox* boxes = nullptr;
+  const LaneBlock* blocks = nullptr;
+  const std::uint32_t* boxOf = nullptr;
+  const std::uint32_t* blockOf = nullptr;
+  std::size_t size = 0;
+};
+
 /// The functions for boxes as they lie in memory, which are not rounded.
 template <class T>
 struct PlainKernels {
@@ -276,6 +285,10 @@ struct Kernels {
   std::uint32_t (*markedLanes)(const LaneBlock& block, const MarkedCells& cells);
   std::uint32_t (*meetingLanes)(const LaneBlock& block, const SweepLanes& sweep, float limit, float* times);
   std::uint32_t (*nearLanes)(const LaneBlock& block, const LaneBox& point, float limit, float* squares);
+
+  /// The same as touchingLanes() for each visit, in their order: writes the places of the lanes in the level, and the
+  /// box beside each, and up to kVectorSlack past the last one. Returns how many there are.
+  std::size_t (*touchingPlaces)(const BlockVisits& visits, std::uint32_t* boxOf, std::uint32_t* places);
 };
 
 /// The kernels for the instruction set of that name, or the best one for an empty name; null if there is none.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One query against the sixteen boxes of a block: which of them it may hit, and the earliest time.
+// Queries against the sixteen boxes of a block: which of them they may hit, and the earliest time.
 
 #if defined(ALLPAIRS_QUERY_KERNEL_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef ALLPAIRS_QUERY_KERNEL_INL_H
@@ -32,6 +32,25 @@ HWY_INLINE std::uint32_t bitsOfBlock(const MaskOf& maskOf) {
 std::uint32_t touchingLanes(const LaneBlock& block, const LaneBox& box) {
   const Query query = broadcast(box);
   return bitsOfBlock([&](std::size_t i) HWY_ATTR { return overlapping(query, block.bound, i); });
+}
+
+/// No branch depends on what is found: which of a few visits finds something is not to be predicted.
+std::size_t touchingPlaces(const BlockVisits& visits, std::uint32_t* HWY_RESTRICT boxOf,
+                           std::uint32_t* HWY_RESTRICT places) {
+  const IdTag d;
+  std::size_t size = 0;
+  for (std::size_t visit = 0; visit < visits.size; ++visit) {
+    const std::size_t block = visits.blockOf[visit];
+    const Query query = broadcast(visits.boxes[visits.boxOf[visit]]);
+    const auto box = hn::Set(d, visits.boxOf[visit]);
+    for (std::size_t i = 0; i < kFanOut; i += hn::Lanes(d)) {
+      const auto touching = hn::RebindMask(d, overlapping(query, visits.blocks[block].bound, i));
+      hn::StoreU(selectedLanes(d, numbersFrom(block * kFanOut + i), touching), d, places + size);
+      hn::StoreU(box, d, boxOf + size);
+      size += hn::CountTrue(d, touching);
+    }
+  }
+  return size;
 }
 
 /// What MarkedCells::cellOf() gives, of a vector of bounds.

@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <bit>
+#include <numeric>
 #include <tuple>
 
 #include "bvh/HilbertSort.h"
+#include "kernels/Kernels.h"
 #include "world/QueryTests.h"
 
 namespace allpairs::engine {
@@ -13,6 +15,10 @@ namespace {
 
 /// Queries that one task answers: some ten microseconds of work (query_benchmark).
 constexpr std::size_t kQueriesPerTask = 64;
+
+/// Boxes that descend a hierarchy together, and visits of blocks that one call of a kernel makes: as many boxes are
+/// tested between two looks at the flag as when one query descends.
+constexpr std::size_t kTogether = 16;
 
 bool isNearer(const SweepHit& a, const SweepHit& b) noexcept { return std::tie(a.t, a.id) < std::tie(b.t, b.id); }
 bool isCloser(const Neighbor& a, const Neighbor& b) noexcept {
@@ -61,6 +67,46 @@ void descend(const Tree& tree, const LanesOf& lanesOf, const Take& take) {
   visit(visit, view.depth - 1, 0);
 }
 
+/// Some boxes that descend a hierarchy together, a level at a time and some visits at a time: memory stays small,
+/// and all hits of one box come before those of the next.
+struct Descent {
+  const Tree& tree;
+  const Kernels& kernels;
+  std::span<const LaneBox> boxes;  ///< At most kTogether.
+
+  /// What some visits of a level find; not initialised.
+  struct Found {
+    std::array<std::uint32_t, kTogether * kFanOut + kVectorSlack> boxOf;
+    std::array<std::uint32_t, kTogether * kFanOut + kVectorSlack> places;
+  };
+
+  /// Calls take(number of the box, id) for all candidate boxes.
+  template <class Take>
+  void run(const Take& take) const {
+    std::array<std::uint32_t, kTogether> boxOf;
+    std::iota(boxOf.begin(), boxOf.end(), 0U);
+    const std::array<std::uint32_t, kTogether> root{};
+    visit(tree.view.depth - 1, {boxes.data(), nullptr, boxOf.data(), root.data(), boxes.size()}, take);
+  }
+
+  /// As deep as there are levels, at most kMaxLevels.
+  // NOLINTNEXTLINE(misc-no-recursion)
+  template <class Take>
+  void visit(std::size_t level, BlockVisits visits, const Take& take) const {
+    Found found;
+    if (level == 0) checkStop(tree.stop);
+    visits.blocks = tree.view.level[level].blocks;
+    const std::size_t size = kernels.touchingPlaces(visits, found.boxOf.data(), found.places.data());
+    if (level == 0) {
+      for (std::size_t i = 0; i < size; ++i) take(found.boxOf[i], tree.view.ids[found.places[i]]);
+      return;
+    }
+    for (std::size_t i = 0; i < size; i += kTogether) {
+      visit(level - 1, {visits.boxes, nullptr, &found.boxOf[i], &found.places[i], std::min(size - i, kTogether)}, take);
+    }
+  }
+};
+
 /// The cheapest of some lanes. Most often few are visited before the limit excludes the rest: sorting all takes longer.
 std::size_t cheapestLane(std::uint32_t bits, const std::array<float, kFanOut>& costs) noexcept {
   auto best = static_cast<std::size_t>(std::countr_zero(bits));
@@ -93,6 +139,42 @@ void descendByCost(const Tree& tree, const LanesOf& lanesOf, const float& limit,
   };
   visit(visit, view.depth - 1, 0);
 }
+
+/// Sorts ids, of which no two are the same. Many that are close together are sorted as bits, which takes a fraction of the
+/// time.
+void sortIds(std::span<BoxId> ids) {
+  constexpr std::size_t kFew = 16;
+  constexpr std::size_t kMostWords = 1024;
+  if (ids.size() < kFew) return std::sort(ids.begin(), ids.end());
+  const auto [least, most] = std::minmax_element(ids.begin(), ids.end());
+  const BoxId first = *least;
+  const std::size_t words = (*most - first) / 64 + 1;
+  if (words > std::min(ids.size(), kMostWords)) return std::sort(ids.begin(), ids.end());
+  std::array<std::uint64_t, kMostWords> bits;
+  std::fill_n(bits.begin(), words, 0);
+  for (const BoxId id : ids) bits[(id - first) / 64] |= std::uint64_t{1} << ((id - first) % 64);
+  auto to = ids.begin();
+  forEachBit(std::span<const std::uint64_t>(bits).first(words),
+             [&](std::size_t bit) { *to++ = first + static_cast<BoxId>(bit); });
+}
+
+/// Queries of a batch, by their indices.
+using Queries = std::span<const CurveKey>;
+
+/// Finds the values of some queries one after the other: find(query, values) appends those of one.
+template <class Find>
+auto oneByOne(const Find& find) {
+  return [find](Queries queries, auto& values, std::size_t* sizes) {
+    for (const CurveKey key : queries) {
+      const std::size_t before = values.size();
+      find(indexOf(key), values);
+      sizes[indexOf(key)] = values.size() - before;
+    }
+  };
+}
+
+/// Sizes, behind a zero, become offsets.
+void sumUp(std::span<std::size_t> offsets) { std::partial_sum(offsets.begin(), offsets.end(), offsets.begin()); }
 
 }  // namespace
 
@@ -146,42 +228,88 @@ std::vector<CurveKey> WorldQueries::orderOf(std::size_t queries, const PointOf& 
   return {order.begin(), order.end()};
 }
 
-/// Calls answer(task, query) for all queries, in spatial order: the same task answers neighbours.
+/// Calls answer(task, queries) for all queries, some at a time, in spatial order: the same task answers neighbours.
 template <class Answer>
 void WorldQueries::answerInOrder(std::span<const CurveKey> order, const Answer& answer) const {
   CallExecutor call;
   m_search.begin(call).run((order.size() + kQueriesPerTask - 1) / kQueriesPerTask, [&](std::size_t task) {
-    const std::size_t end = std::min(order.size(), (task + 1) * kQueriesPerTask);
-    for (std::size_t i = task * kQueriesPerTask; i < end; ++i) answer(task, indexOf(order[i]));
+    const std::size_t begin = task * kQueriesPerTask;
+    answer(task, order.subspan(begin, std::min(order.size() - begin, kQueriesPerTask)));
   });
 }
 
-/// Answers each query by find(i, values), which appends to the values of its task; then gathers them by query.
+/// Answers queries by find(queries, values, sizes), which appends to the values of a task and writes how many each query
+/// has; then gathers them by query.
 template <class T, class PointOf, class Find>
 ResultLists<T> WorldQueries::findEach(std::size_t queries, const PointOf& pointOf, const Find& find) const {
   const std::vector<CurveKey> order = orderOf(queries, pointOf);
   std::vector<std::vector<T>> parts((queries + kQueriesPerTask - 1) / kQueriesPerTask);
   ResultLists<T> lists;
   lists.offsets.assign(queries + 1, 0);
-  answerInOrder(order, [&](std::size_t task, std::size_t query) {
-    const std::size_t before = parts[task].size();
-    find(query, parts[task]);
-    lists.offsets[query + 1] = parts[task].size() - before;
-  });
-  for (std::size_t i = 0; i < queries; ++i) lists.offsets[i + 1] += lists.offsets[i];
+  answerInOrder(order, [&](std::size_t task, Queries some) { find(some, parts[task], lists.offsets.data() + 1); });
+  sumUp(lists.offsets);
   lists.values.resize(lists.offsets[queries]);
-  std::vector<std::size_t> read(parts.size(), 0);
-  answerInOrder(order, [&](std::size_t task, std::size_t query) {
-    const std::size_t size = lists.offsets[query + 1] - lists.offsets[query];
-    std::copy_n(parts[task].data() + read[task], size, lists.values.data() + lists.offsets[query]);
-    read[task] += size;
+  answerInOrder(order, [&](std::size_t task, Queries some) {
+    const T* from = parts[task].data();
+    for (const CurveKey key : some) {
+      const std::size_t query = indexOf(key);
+      const std::size_t size = lists.offsets[query + 1] - lists.offsets[query];
+      std::copy_n(from, size, lists.values.data() + lists.offsets[query]);
+      from += size;
+    }
   });
   return lists;
 }
 
+/// Boxes that ask together, without empty ones, and whose size each writes; the arrays are not initialised.
+struct WorldQueries::Askers {
+  explicit Askers(std::span<Box> room) : boxes(room) {}
+
+  std::span<Box> boxes;
+  std::array<LaneBox, kTogether> lanes;
+  std::array<bool, kTogether> areExact;
+  std::array<std::size_t*, kTogether> sizes;
+  std::size_t count = 0;
+
+  void add(const Box& box, std::size_t& size) {
+    if (isEmpty(box)) return;
+    lanes[count] = lanesOf(box);
+    boxes[count] = box;
+    areExact[count] = boxOf(lanes[count]) == box;
+    sizes[count++] = &size;
+  }
+};
+
+/// In several hierarchies the hits of boxes that ask together would come mixed.
+bool WorldQueries::canAskTogether() const {
+  std::size_t trees = 0;
+  eachBvh([&](const Tree&) { ++trees; });
+  return trees == 1;
+}
+
+/// Appends the ids that each box overlaps, and adds how many there are to its size.
+void WorldQueries::overlapping(const Askers& askers, std::vector<BoxId>& ids) const {
+  std::size_t begin = ids.size();
+  eachBvh([&](const Tree& tree) {
+    const auto take = [&](std::size_t i, BoxId id) {
+      if (!passes(id)) return;
+      const bool isCertain = tree.isExact && askers.areExact[i];
+      if (!isCertain && !overlap(m_store.box(id), askers.boxes[i], m_store.margin(id))) return;
+      ids.push_back(id);
+      ++*askers.sizes[i];
+    };
+    Descent{tree, m_search.kernels(), {askers.lanes.data(), askers.count}}.run(take);
+  });
+  for (std::size_t i = 0; i < askers.count; ++i) {
+    sortIds(std::span(ids).subspan(begin, *askers.sizes[i]));
+    begin += *askers.sizes[i];
+  }
+}
+
+/// One box descends node by node: it has not enough to test at once.
 void WorldQueries::overlapping(const Box& query, std::vector<BoxId>& ids) const {
   if (isEmpty(query)) return;
-  const auto begin = static_cast<std::ptrdiff_t>(ids.size());
+  const std::size_t begin = ids.size();
   const LaneBox lanes = lanesOf(query);
   const bool queryIsExact = boxOf(lanes) == query;
   const auto lanesIn = [&](const LaneBlock& block) { return m_search.kernels().touchingLanes(block, lanes); };
@@ -192,7 +320,7 @@ void WorldQueries::overlapping(const Box& query, std::vector<BoxId>& ids) const 
     };
     descend(tree, lanesIn, take);
   });
-  std::sort(ids.begin() + begin, ids.end());
+  sortIds(std::span(ids).subspan(begin));
 }
 
 SweepHit WorldQueries::first(const BoxSweep& sweep) const {
@@ -270,27 +398,52 @@ void WorldQueries::nearest(const std::array<double, 3>& point, std::size_t count
   std::sort(neighbors.begin() + static_cast<std::ptrdiff_t>(begin), neighbors.end(), isCloser);
 }
 
+/// Of no more queries than one task answers, neither an order nor tasks pay.
 ResultLists<BoxId> WorldQueries::overlapping(const BoxView& boxes) const {
-  return findEach<BoxId>(
-      boxes.size(), [&](std::size_t i) { return boxes[i].min; },
-      [&](std::size_t i, std::vector<BoxId>& ids) { overlapping(boxes[i], ids); });
+  const bool areTogether = canAskTogether();
+  const auto alone = oneByOne([&](std::size_t i, std::vector<BoxId>& ids) { overlapping(boxes[i], ids); });
+  const auto find = [&](Queries queries, std::vector<BoxId>& ids, std::size_t* sizes) {
+    if (!areTogether) return alone(queries, ids, sizes);
+    for (std::size_t begin = 0; begin < queries.size(); begin += kTogether) {
+      std::array<Box, kTogether> room;
+      Askers askers(room);
+      for (const CurveKey key : queries.subspan(begin, std::min(queries.size() - begin, kTogether))) {
+        askers.add(boxes[indexOf(key)], sizes[indexOf(key)]);
+      }
+      if (askers.count != 0) overlapping(askers, ids);
+    }
+  };
+  if (boxes.size() > kQueriesPerTask) {
+    return findEach<BoxId>(
+        boxes.size(), [&](std::size_t i) { return boxes[i].min; }, find);
+  }
+  checkStop(m_search.stop());
+  std::array<CurveKey, kQueriesPerTask> order;
+  std::iota(order.begin(), order.end(), CurveKey{0});
+  ResultLists<BoxId> lists;
+  lists.offsets.assign(boxes.size() + 1, 0);
+  find(Queries(order).first(boxes.size()), lists.values, lists.offsets.data() + 1);
+  sumUp(lists.offsets);
+  return lists;
 }
 
 void WorldQueries::first(std::span<const BoxSweep> sweeps, std::span<SweepHit> hits) const {
   const auto order = orderOf(sweeps.size(), [&](std::size_t i) { return sweeps[i].box.min; });
-  answerInOrder(order, [&](std::size_t, std::size_t query) { hits[query] = first(sweeps[query]); });
+  answerInOrder(order, [&](std::size_t, Queries queries) {
+    for (const CurveKey key : queries) hits[indexOf(key)] = first(sweeps[indexOf(key)]);
+  });
 }
 
 ResultLists<SweepHit> WorldQueries::all(std::span<const BoxSweep> sweeps) const {
   return findEach<SweepHit>(
       sweeps.size(), [&](std::size_t i) { return sweeps[i].box.min; },
-      [&](std::size_t i, std::vector<SweepHit>& hits) { all(sweeps[i], hits); });
+      oneByOne([&](std::size_t i, std::vector<SweepHit>& hits) { all(sweeps[i], hits); }));
 }
 
 ResultLists<Neighbor> WorldQueries::nearest(std::span<const std::array<double, 3>> points, std::size_t count) const {
   return findEach<Neighbor>(
       points.size(), [&](std::size_t i) { return points[i]; },
-      [&](std::size_t i, std::vector<Neighbor>& neighbors) { nearest(points[i], count, neighbors); });
+      oneByOne([&](std::size_t i, std::vector<Neighbor>& neighbors) { nearest(points[i], count, neighbors); }));
 }
 
 }  // namespace allpairs::engine

@@ -43,6 +43,10 @@ class WorldQueries {
   template <class T, class PointOf, class Find>
   [[nodiscard]] ResultLists<T> findEach(std::size_t queries, const PointOf& pointOf, const Find& find) const;
 
+  struct Askers;
+  [[nodiscard]] bool canAskTogether() const;
+  void overlapping(const Askers& askers, std::vector<BoxId>& ids) const;
+
   /// Calls visit(tree) for each hierarchy that is not empty, of those that the filter includes.
   template <class Visit>
   void eachBvh(const Visit& visit) const;
