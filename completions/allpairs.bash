@@ -33,7 +33,7 @@ _allpairs() {
         -o | --output) files=-f ;;
         --color) words='auto always never' ;;
         *)
-          options='-h --help --recursive --partial --data --sofa --allow-outside --max-memory --input-format --distance --box --clearance --min-depth --strategy --threads --verify --exact --worlds --fail-on --why --format -o --output --color'
+          options='-h --help --recursive --partial --data --sofa --allow-outside --max-memory --input-format --between-inputs --distance --box --clearance --min-depth --strategy --threads --verify --exact --worlds --fail-on --why --format -o --output --color'
           files=-f
           ;;
       esac
@@ -142,7 +142,7 @@ _allpairs() {
         -o | --output) files=-f ;;
         --port) return ;;
         *)
-          options='-h --help --recursive --partial --data --sofa --allow-outside --max-memory --input-format --distance --box --clearance --min-depth --exact --boxes --group --up --threads --sequence -o --output --open --serve --port'
+          options='-h --help --recursive --partial --data --sofa --allow-outside --max-memory --input-format --between-inputs --distance --box --clearance --min-depth --exact --boxes --group --up --threads --sequence -o --output --open --serve --port'
           files=-f
           ;;
       esac
@@ -167,7 +167,7 @@ _allpairs() {
         --pictures) return ;;
         --metres-per-unit) return ;;
         *)
-          options='-h --help --recursive --partial --data --sofa --allow-outside --max-memory --input-format --distance --box --clearance --min-depth --exact --boxes --group --up --threads -o --output --force --bcf --since --fail-on --open --pictures --metres-per-unit'
+          options='-h --help --recursive --partial --data --sofa --allow-outside --max-memory --input-format --between-inputs --distance --box --clearance --min-depth --exact --boxes --group --up --threads -o --output --force --bcf --since --fail-on --open --pictures --metres-per-unit'
           files=-f
           ;;
       esac

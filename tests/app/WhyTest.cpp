@@ -42,8 +42,11 @@ void expectSamePairs(const std::string& input, const Arguments& more = {}) {
   words.insert(words.end(), more.begin(), more.end());
   const auto result = nlohmann::json::parse(runProgram(words).out);
   std::set<std::pair<std::size_t, std::size_t>> expected;
-  for (const auto& pair : result["pairs"])
-    expected.emplace(std::min<std::size_t>(pair[0], pair[1]), std::max<std::size_t>(pair[0], pair[1]));
+  for (const auto& pair : result["pairs"]) {
+    const auto first = pair[0].get<std::size_t>();
+    const auto second = pair[1].get<std::size_t>();
+    expected.emplace(std::min(first, second), std::max(first, second));
+  }
   std::set<std::pair<std::size_t, std::size_t>> found;
   const std::size_t count = result["models"].size();
   for (std::size_t i = 0; i < count; ++i) {

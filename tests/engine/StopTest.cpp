@@ -270,7 +270,7 @@ TEST(Stop, EndsOneQueryOfAWorldWithinSomeHundredBoxes) {
   const Ray ray{{-1, 0.5, 0.5}, {1, 0, 0}};
   const std::vector<std::function<void()>> queries{
       [&] { EXPECT_EQ(world.findOverlapping(box).size(), 10'000U); },
-      [&] { EXPECT_EQ(world.findOverlapping(std::vector<Box>(3, box)).values.size(), 30'000U); },
+      [&] { EXPECT_EQ(world.findOverlapping(test::lent(std::vector<Box>(3, box))).values.size(), 30'000U); },
       [&] { EXPECT_EQ(world.findAll(ray).size(), 10'000U); },
       [&] { EXPECT_EQ(world.findFirst(ray).id, 0U); },
       [&] {

@@ -173,6 +173,20 @@ def test_a_scene_without_a_pipeline_warns(tmp_path):
         allpairs.load(path, sofa="27.06")
 
 
+def test_errors_name_arguments_and_not_options_of_the_command(tmp_path):
+    path = tmp_path / "gone.scn"
+    loader = "<MeshOBJLoader name='l' filename='gone.obj'/><MechanicalObject src='@l'/><PointCollisionModel/>"
+    path.write_text(f"<Node name='root'>{loader}</Node>")
+    with pytest.raises(allpairs.FileError, match="nowhere to be found; search_roots says where else to look"):
+        allpairs.load(path)
+    with pytest.raises(allpairs.FileError, match="which is what max_memory allows"):
+        allpairs.load(path, max_memory=1)
+    (tmp_path / "a.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    (tmp_path / "gear.step").write_text("")
+    with pytest.raises(allpairs.FileError, match="glTF, STL or OBJ; partial leaves it out$"):
+        allpairs.load(tmp_path)
+
+
 def test_names_and_errors_of_files_that_are_no_utf8_show_their_bytes(tmp_path):
     row = b"Tor\xe9,0,0,0,1,1,1\n"
     path = tmp_path / "boxes.csv"

@@ -59,10 +59,11 @@ TEST(PathName, IsNumberedWhereAllAreInOnePlace) {
 
 TEST(PathName, HasNoNumberThatIsAnothersName) {
   const Part numbered{"bolt#2", 1};
-  EXPECT_EQ(
-      placedOf({{"plate", 0, {kBolt, kBolt, numbered, kBolt}}}),
-      (std::vector<Placed>{
-          {"bolt", "plate/bolt"}, {"bolt#3", "plate/bolt#3"}, {"bolt#2", "plate/bolt#2"}, {"bolt#4", "plate/bolt#4"}}));
+  EXPECT_EQ(placedOf({{"plate", 0, {kBolt, kBolt, numbered, kBolt}}}),
+            (std::vector<Placed>{{"bolt", "plate/bolt"},
+                                 {"bolt#2", "plate/bolt#3"},
+                                 {"bolt#2#2", "plate/bolt#2"},
+                                 {"bolt#3", "plate/bolt#4"}}));
   const Part door{"door", 0, {kBolt}};
   EXPECT_EQ(
       placedOf({{"car", 0, {door, door, {"door#2", 0, {kBolt}}}}}),
@@ -101,7 +102,7 @@ TEST(PathName, IsOneOfItsOwnWhateverNamesHold) {
   const std::vector<Part> doors{{"door", 0, {kBolt}}, {"door#2", 0, {kBolt}}, {"door", 0, {kBolt}}};
   EXPECT_EQ(placedOf(doors),
             (std::vector<Placed>{
-                {"door/bolt", "door/bolt"}, {"door#2/bolt", "door#2/bolt"}, {"door#2/bolt#2", "door#2/bolt"}}));
+                {"door/bolt", "door/bolt"}, {"door#2/bolt", "door#2/bolt"}, {"door#3/bolt", "door#3/bolt"}}));
 }
 
 TEST(PathName, SaysNothingOfNodesFarAbove) {

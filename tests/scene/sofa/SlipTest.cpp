@@ -53,7 +53,7 @@ TEST_F(AttributeSlip, IsNamedWithItsLineAndWhatIsMeant) {
 TEST_F(AttributeSlip, IsNoOtherNameOfSofas) {
   EXPECT_THAT(warningsOf({.state = "rotation2='0 0 1' reset_position='0 0 0' showObject='1' translation2='1 0 0'"}),
               IsEmpty());
-  EXPECT_THAT(warningsOf({.topology = "edge='0 1'", .model = "color='1 0 0 1' bothSide='1' activ='1'"}), IsEmpty())
+  EXPECT_THAT(warningsOf({.topology = "edge='0 1'", .model = "color='1 0 0 1' bothSide='1' grup='1'"}), IsEmpty())
       << "too short to tell";
   EXPECT_THAT(warningsOf({.model = "selfCollision='1' selfColision='1'"}), IsEmpty()) << "it is there too";
 }

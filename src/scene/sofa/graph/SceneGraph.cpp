@@ -29,7 +29,8 @@ std::string_view withoutDigits(std::string_view name) {
 
 /// Names of SOFA's that are near to another of its names, and no slips.
 bool isAnother(std::string_view written, std::string_view meant) {
-  static constexpr std::array<std::string_view, 2> kAlike{"rest_position", "reset_position"};
+  static constexpr std::array<std::string_view, 4> kAlike{"rest_position", "reset_position", "defaultHeight",
+                                                          "dafaultHeight"};
   if (withoutDigits(written) == withoutDigits(meant)) return true;  // rotation and rotation2
   return std::ranges::find(kAlike, written) != kAlike.end();
 }
