@@ -141,7 +141,11 @@ Outcome detect(const BoxInput& input, const DetectSettings& settings, DetectionO
                   .notes = {.method = boxMethod(options.distance, options.region) + betweenText(settings.input),
                             .simulated = boxes.size()}};
   outcome.result.modelCount = boxes.size();
-  outcome.result.model = [&boxes](std::size_t i) { return boxRecord(boxes, i); };
+  outcome.result.model = [&input](std::size_t i) {
+    scene::ModelRecord record = boxRecord(input.boxes, i);
+    if (!input.groups.empty()) record.groups = {static_cast<int>(input.groups[i])};
+    return record;
+  };
   outcome.result.warnings = input.warnings;
   return outcome;
 }
@@ -193,7 +197,7 @@ void checkWhy(const DetectSettings& settings) {
       {"--worlds", settings.worlds},
       {"--verify", settings.verify},
       {"--fail-on", !settings.failOn.empty()},
-      {"--format " + settings.format, settings.format != kDetectFormats.front()}};
+      {"format " + settings.format, settings.format != kDetectFormats.front()}};
   for (const auto& [name, isGiven] : others) {
     if (isGiven) throw UsageError("--why says of two models whether their boxes are a pair; it takes no " + name);
   }
@@ -205,6 +209,7 @@ void explain(const DetectSettings& settings, const DetectionOptions& options, Ou
   makeScene(inputs);
   output.write(whyText(std::get<scene::Scene>(inputs), settings.why, options));
   output.commit();
+  if (!settings.output.empty()) sayWritten("the answer", settings.output);
 }
 
 void runDetect(const DetectSettings& settings, const DetectionOptions& options) {
@@ -273,7 +278,7 @@ void addDetect(CLI::App& program) {
   addChoice(*command, "--fail-on", settings->failOn, {"pair", "clash"})
       ->description("End with status 4 if there is a pair, or with --exact a clash");
   command->add_option("--why", settings->why, "Say why two models, by name or number, are or are not a pair")
-      ->type_name("A B")
+      ->type_name("MODEL")
       ->expected(2);
   addFormat(*command, settings->format, kDetectFormats);
   addOutput(*command, settings->output);

@@ -74,6 +74,7 @@ Detection detectScene(scene::Scene& scene, const DetectionOptions& options) {
     detection.pipelines.push_back({.name = scene.pipelines[i].name,
                                    .method = std::string(searches[i].intersection->typeName()),
                                    .distance = searches[i].intersection->getAlarmDistance(),
+                                   .region = searches[i].region,
                                    .models = searches[i].indices,
                                    .pairs = detection.ownPairs.size() - before});
   }

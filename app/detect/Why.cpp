@@ -30,18 +30,20 @@ std::vector<std::size_t> modelsNamed(const scene::Scene& scene, const std::strin
   return named;
 }
 
-/// The model of that name, or else of that number.
+/// The model of that name, or else of that number; of a name that is a number too, "#7" is the number.
 std::size_t modelOf(const scene::Scene& scene, const std::string& text) {
   constexpr std::size_t kMostListed = 5;
   const std::vector<std::size_t> named = modelsNamed(scene, text);
   if (named.size() == 1) return named.front();
   if (named.size() > 1) {
     const auto listed = named.begin() + static_cast<std::ptrdiff_t>(std::min(named.size(), kMostListed));
-    throw UsageError(fmt::format("--why: {} models are called '{}': number {}{}; say which by its number", named.size(),
-                                 text, fmt::join(named.begin(), listed, ", "), listed == named.end() ? "" : ", ..."));
+    throw UsageError(fmt::format("--why: {} models are called '{}': number {}{}; say which by its number, as in #{}",
+                                 named.size(), text, fmt::join(named.begin(), listed, ", "),
+                                 listed == named.end() ? "" : ", ...", named.front()));
   }
   std::size_t number = 0;
-  const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), number);
+  const char* const begin = text.data() + (text.starts_with('#') ? 1 : 0);
+  const auto [end, problem] = std::from_chars(begin, text.data() + text.size(), number);
   const bool isNumber = problem == std::errc() && end == text.data() + text.size();
   if (isNumber && number < scene.models.size()) return number;
   throw UsageError(fmt::format("--why: of {}, none has the name or the number '{}'; 'allpairs info' lists them",
@@ -95,6 +97,7 @@ std::string reasonOfBoxes(const Question& asked) {
   for (const std::size_t i : {0U, 1U}) {
     if (isEmpty(asked.box(i))) return "the box of " + asked.name(i) + " is empty: its min is above its max";
   }
+  if (asked.isOfOne() && asked.distance() < 0.0) return "its box does not touch itself at a distance below 0";
   if (asked.isOfOne()) return "it is too flat to touch itself";
   return "their boxes are too far apart";
 }
@@ -149,12 +152,12 @@ std::string answerTo(const Question& asked) {
   const std::string be = asked.isOfOne() ? " is " : " are ";
   for (const std::size_t i : {0U, 1U}) {
     if (collision::CollisionPipeline::takes(models[i])) continue;
-    return names + be + "no pair" + with + ": " + asked.name(i) +
-           (models[i]->isActive() ? " has no elements\n" : " is not active\n");
+    return fmt::format("{}{}no pair{}: {} {}\n", names, be, with, asked.name(i),
+                       models[i]->isActive() ? "has no elements" : "is not active");
   }
   const collision::PairVerdict verdict = broadPhase.judge(models[0], models[1]);
-  return names + be + (verdict.isPair() ? "a pair" : "no pair") + with + ": " + reasonOf(asked, verdict) + '\n' +
-         gapLine(asked);
+  return fmt::format("{}{}{}{}: {}\n{}", names, be, verdict.isPair() ? "a pair" : "no pair", with,
+                     reasonOf(asked, verdict), gapLine(asked));
 }
 
 /// The place of a model among those of a search; the number of them where it is not one.

@@ -194,7 +194,7 @@ scene::InputView viewOf(const scene::Scene& scene, const std::vector<scene::Pipe
                         .model = {},
                         .method = std::string(scene.intersection->typeName()),
                         .distance = scene.intersection->getAlarmDistance(),
-                        .region = scene.region,
+                        .region = scene.pipelines.empty() ? scene.region : std::nullopt,
                         .ignored = scene.remarks,
                         .warnings = scene.warnings,
                         .pipelines = pipelines};
@@ -217,6 +217,7 @@ std::vector<scene::PipelineRecord> pipelinesOf(const scene::Scene& scene) {
     pipelines.push_back({.name = pipeline.name,
                          .method = std::string(pipeline.intersection->typeName()),
                          .distance = pipeline.intersection->getAlarmDistance(),
+                         .region = pipeline.region,
                          .models = pipeline.models});
   }
   return pipelines;

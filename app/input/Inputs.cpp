@@ -251,8 +251,9 @@ bool isOfSofa(const scene::Scene& scene) {
   return std::any_of(scene.inputs.begin(), scene.inputs.end(), scene::isSceneFile);
 }
 
-bool isOfSofaAlone(const scene::Scene& scene) {
-  return !scene.files.empty() && std::all_of(scene.files.begin(), scene.files.end(), scene::isSceneFile);
+bool areScenes(const InputSettings& settings) {
+  return std::all_of(settings.paths.begin(), settings.paths.end(),
+                     [](const std::string& path) { return scene::isSceneFile(path); });
 }
 
 std::string methodText(const scene::Scene& scene) {

@@ -75,7 +75,7 @@ void warnOfEmpty(const InputSettings& settings, const scene::EmptyBoxes& boxes, 
 [[nodiscard]] bool isOfSofa(const scene::Scene& scene);
 
 /// Whether all of them are: their user asks what SOFA's broad phase finds.
-[[nodiscard]] bool isOfSofaAlone(const scene::Scene& scene);
+[[nodiscard]] bool areScenes(const InputSettings& settings);
 
 /// How a scene's models are tested, in words: of a SOFA scene the method and its alarm distance, of meshes as boxes.
 [[nodiscard]] std::string methodText(const scene::Scene& scene);

@@ -139,7 +139,7 @@ bool hasShapes(const scene::Scene& scene) {
 /// Whether shapes are to be tested; the page says so where they are not because this program cannot.
 bool testsShapes(const scene::Scene& scene, ShapeTest test, view::ViewScene& to) {
   if (test != ShapeTest::WhereShapesAre) return test == ShapeTest::Always;
-  if (isOfSofaAlone(scene) || !hasShapes(scene)) return false;
+  if (!hasShapes(scene)) return false;
   if (!hasExact()) to.method += "; shapes are not tested, because this program was built without FCL";
   return hasExact();
 }
@@ -236,7 +236,9 @@ view::ViewScene makeViewScene(const InputSettings& input, const ViewRequest& req
   const Timer timer;
   Inputs inputs = readInputs(input);
   const double readSeconds = timer.seconds();
-  std::visit([&](auto& content) { fill(content, request, result); }, inputs);
+  ViewRequest asked = request;
+  if (asked.shapes == ShapeTest::WhereShapesAre && areScenes(input)) asked.shapes = ShapeTest::Never;
+  std::visit([&](auto& content) { fill(content, asked, result); }, inputs);
   result.method += betweenText(input);
   result.statistics.readSeconds = readSeconds;
   result.up = request.up.value_or(result.up);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // C++ exceptions become those of allpairs._errors, which are plain Python.
 #include <algorithm>
+#include <cctype>
 #include <exception>
 #include <string>
 #include <string_view>
@@ -23,6 +24,13 @@ void raise(const char* name, Arguments&&... arguments) {
   PyErr_SetObject(type.ptr(), error.ptr());
 }
 
+/// Whether part of a text is no part of a longer word, such as a file's name.
+bool isWord(std::string_view text, std::size_t at, std::size_t size) {
+  const auto isInWord = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '_'; };
+  return !(at > 0 && text[at] != ' ' && isInWord(text[at - 1])) &&
+         !(at + size < text.size() && isInWord(text[at + size]));
+}
+
 /// The text with the arguments of load() in the place of the options of the command, which reads alike.
 std::string withArguments(std::string text, std::size_t begin) {
   static constexpr std::pair<std::string_view, std::string_view> kNames[] = {{" of detect, info, view and report", ""},
@@ -33,8 +41,8 @@ std::string withArguments(std::string text, std::size_t begin) {
                                                                              {"--partial", "partial"},
                                                                              {"--recursive", "recursive"}};
   for (const auto& [option, argument] : kNames) {
-    for (std::size_t at = text.find(option, begin); at != std::string::npos; at = text.find(option, at))
-      text.replace(at, option.size(), argument);
+    for (std::size_t at = text.find(option, begin); at != std::string::npos; at = text.find(option, at + 1))
+      if (isWord(text, at, option.size())) text.replace(at, option.size(), argument);
   }
   return text;
 }

@@ -74,6 +74,8 @@ void expectPairsBetween(const Arguments& paths, const Arguments& more) {
   const Json expected = pairsOfDifferentInputs(all["pairs"]);
   EXPECT_EQ(found["pairs"], expected);
   EXPECT_FALSE(expected.empty());
+  for (std::size_t i = 0; i < found["models"].size(); ++i)
+    EXPECT_EQ(found["models"][i]["groups"].size(), 1U) << "the group of its input";
   EXPECT_LT(expected.size(), all["pairs"].size());
 }
 
@@ -92,7 +94,7 @@ TEST(BetweenInputs, ObjectsOfOneFileAreNoPair) {
   expectPairsBetween(paths, {"--distance", "0.25"});
 }
 
-TEST(BetweenInputs, WhyNamesTheInput) {
+TEST(BetweenInputs, WhyNamesTheGroupOfTheInput) {
   const TempFolder folder;
   const std::string first = folder.write("a.csv", "0,0,0,1,1,1,wall\n0,0,0,1,1,1,door\n");
   const std::string second = folder.write("b.csv", "0,0,0,1,1,1,pipe\n");

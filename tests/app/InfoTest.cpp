@@ -86,8 +86,11 @@ TEST(InfoOfPipelines, SaysWhatLiesOutsideOfTheRegionsOfEach) {
   for (const Json& model : info["models"]) outside.emplace_back(model["name"], model["outside"]);
   EXPECT_EQ(outside, (std::vector<std::pair<std::string, bool>>{{"/A/s", false}, {"/C/s", true}, {"/B/s", false}}));
   EXPECT_EQ(info["pipelines"], Json::parse(R"([
-    {"name": "/p1", "method": "DiscreteIntersection", "distance": 0.0, "models": [0, 1]},
-    {"name": "/p2", "method": "DiscreteIntersection", "distance": 0.0, "models": [2]}])"));
+    {"name": "/p1", "method": "DiscreteIntersection", "distance": 0.0, "region": [[-2, -2, -2], [3, 2, 2]],
+     "models": [0, 1]},
+    {"name": "/p2", "method": "DiscreteIntersection", "distance": 0.0, "region": [[-2, -2, -2], [0.5, 2, 2]],
+     "models": [2]}])"));
+  EXPECT_FALSE(info["statistics"].contains("region")) << "each pipeline has its own";
   EXPECT_NE(runProgram({"info", scene}).out.find("1  /C/s  TSphereModel         1  outside"), std::string::npos);
 }
 

@@ -114,6 +114,20 @@ TEST(Why, NamesAnEmptyBox) {
             "'empty' (1) and 'a' (0) are no pair: the box of 'empty' (1) is empty: its min is above its max\n");
 }
 
+TEST(Why, TakesANumberWhereNamesAreNumbersToo) {
+  const TempFolder folder;
+  const std::string names =
+      folder.write("names.csv", "name,minx,miny,minz,maxx,maxy,maxz\n1,0,0,0,1,1,1\n0,5,5,5,6,6,6\n");
+  EXPECT_NE(whyOf(names, "1", "0").find("'1' (0) "), std::string::npos) << "by name";
+  EXPECT_NE(whyOf(names, "#1", "0").find("'0' (1) is no pair with itself"), std::string::npos) << whyOf(names, "#1", "0");
+}
+
+TEST(Why, SaysThatADistanceKeepsAModelFromItself) {
+  const TempFolder folder;
+  const std::string scene = folder.write("rules.scn", kRules);
+  EXPECT_NE(whyOf(scene, "/A/t", "/A/t", {"--distance", "-5"}).find("at a distance below 0"), std::string::npos);
+}
+
 TEST(Why, WantsNamesThatSayWhichModel) {
   const TempFolder folder;
   const std::string boxes = folder.write("boxes.csv", "a,0,0,0,1,1,1\nb,0,0,0,1,1,1\nb,0,0,0,1,1,1\n");
@@ -122,7 +136,7 @@ TEST(Why, WantsNamesThatSayWhichModel) {
   expectFailure(runProgram({"detect", boxes, "--why", "a", "3"}), kWrongUsage, "none has the name or the number '3'");
   expectFailure(runProgram({"detect", boxes, "--why", "a"}), kWrongUsage, "--why");
   expectFailure(runProgram({"detect", boxes, "--why", "a", "2", "--format", "csv"}), kWrongUsage,
-                "it takes no --format csv");
+                "it takes no format csv");
   expectFailure(runProgram({"detect", boxes, "--why", "a", "2", "--verify"}), kWrongUsage, "it takes no --verify");
 }
 

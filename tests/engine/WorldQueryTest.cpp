@@ -217,7 +217,7 @@ TEST(WorldQuery, AnEmptyBoxOverlapsNothingNotEvenWhatLiesAroundIt) {
   }
 }
 
-/// A world of boxes along a line that overlap their neighbours, and queries of which some are empty and one overlaps all.
+/// A world of boxes along a line that overlap their neighbours, and queries: some are empty and one overlaps all.
 void expectListsOfEachAlone(std::size_t boxes, std::size_t queries) {
   World world;
   for (std::size_t i = 0; i < boxes; ++i) {

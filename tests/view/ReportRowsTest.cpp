@@ -387,10 +387,12 @@ TEST(ReportOfSeveralInputs, TestsShapesAlthoughOneOfThemIsAScene) {
       folder.write("s.scn",
                    "<Node name='root'><CollisionPipeline/><BruteForceDetection/><DiscreteIntersection/>"
                    "<MechanicalObject position='9 9 9'/><SphereCollisionModel name='s'/></Node>");
-  const auto tested = [&](std::vector<std::string> words) {
-    words.insert(words.begin(), "report");
-    words.insert(words.end(), {"-o", folder.path() / "out", "--threads", "1"});
-    EXPECT_EQ(runProgram(words).status, 0);
+  const auto tested = [&](const std::vector<std::string>& inputs, const std::string& standardInput = "/dev/null") {
+    std::string words;
+    for (const std::string& input : inputs) words += " '" + input + '\'';
+    const std::string out = folder.path() / "out";
+    EXPECT_EQ(runScript("\"$0\" report" + words + " -o '" + out + "' --threads 1 < '" + standardInput + '\'').status,
+              0);
     const std::string page = readBytes(folder.path() / "out/index.html");
     return page.substr(page.find("<dt>Tested</dt><dd>") + 19, 6);
   };
@@ -399,6 +401,7 @@ TEST(ReportOfSeveralInputs, TestsShapesAlthoughOneOfThemIsAScene) {
   ASSERT_EQ(rowsOf(folder.path() / "out").size(), 1U);
   EXPECT_EQ(rowsOf(folder.path() / "out")[0].at("state"), "undecided") << "triangles that are apart close nothing";
   EXPECT_EQ(tested({scene}), "boxes<");
+  EXPECT_EQ(tested({"-", "--input-format", "scn"}, scene), "boxes<") << "by whatever name";
 }
 #endif
 

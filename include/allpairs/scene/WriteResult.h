@@ -62,6 +62,7 @@ struct PipelineRecord {
   std::string name{};
   std::string method{};
   double distance = 0.0;              ///< The alarm distance.
+  std::optional<Box> region{};        ///< Models outside of it are in no pair of this pipeline.
   std::vector<std::size_t> models{};  ///< Indices, in the order in which the pipeline takes them.
   std::size_t pairs = 0;              ///< The number of its pairs; those of the first pipeline come first.
 };

@@ -196,7 +196,7 @@ struct MarkedCells {
   }
 };
 
-/// Boxes that descend a hierarchy together, at one level of it. In visit i, box boxOf[i] is tested with block blockOf[i].
+/// Boxes that descend a hierarchy together, at one level of it: visit i tests box boxOf[i] with block blockOf[i].
 struct BlockVisits {
   const LaneBox* boxes = nullptr;
   const LaneBlock* blocks = nullptr;

@@ -140,8 +140,7 @@ void descendByCost(const Tree& tree, const LanesOf& lanesOf, const float& limit,
   visit(visit, view.depth - 1, 0);
 }
 
-/// Sorts ids, of which no two are the same. Many that are close together are sorted as bits, which takes a fraction of the
-/// time.
+/// Sorts ids, of which no two are the same. Many that are close together are sorted as bits, in a fraction of the time.
 void sortIds(std::span<BoxId> ids) {
   constexpr std::size_t kFew = 16;
   constexpr std::size_t kMostWords = 1024;
@@ -238,8 +237,8 @@ void WorldQueries::answerInOrder(std::span<const CurveKey> order, const Answer& 
   });
 }
 
-/// Answers queries by find(queries, values, sizes), which appends to the values of a task and writes how many each query
-/// has; then gathers them by query.
+/// Answers queries by find(queries, values, sizes), which appends to the values of a task and writes how many each
+/// query has; then gathers them by query.
 template <class T, class PointOf, class Find>
 ResultLists<T> WorldQueries::findEach(std::size_t queries, const PointOf& pointOf, const Find& find) const {
   const std::vector<CurveKey> order = orderOf(queries, pointOf);

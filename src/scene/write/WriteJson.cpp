@@ -81,6 +81,7 @@ void writePipelines(std::span<const PipelineRecord> pipelines, bool detected, Te
     out.append(i == 0 ? "\n  " : ",\n  ");
     out.format(R"({{"name": {}, "method": {}, "distance": {}, )", quoted(pipeline.name), quoted(pipeline.method),
                number(pipeline.distance));
+    if (pipeline.region) out.format(R"("region": {}, )", boxValue(*pipeline.region));
     out.format(R"("models": [{}])", fmt::join(pipeline.models, ", "));
     if (detected) out.format(R"(, "pairs": {})", pipeline.pairs);
     out.append("}");
