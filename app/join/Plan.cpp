@@ -76,7 +76,7 @@ std::string ranksText(const join::RanksPlan& plan, const PlanSettings& settings)
 
 /// Where to measure: the folder that a join would work in, or the one that it would make it in.
 std::filesystem::path placeToMeasure(const std::string& work) {
-  const std::filesystem::path folder = work.empty() ? "." : work;
+  std::filesystem::path folder = work.empty() ? "." : work;
   std::error_code ignored;
   if (std::filesystem::exists(std::filesystem::symlink_status(folder, ignored))) return folder;
   std::filesystem::path above = (folder.has_filename() ? folder : folder.parent_path()).parent_path();
