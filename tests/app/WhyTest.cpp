@@ -119,7 +119,8 @@ TEST(Why, TakesANumberWhereNamesAreNumbersToo) {
   const std::string names =
       folder.write("names.csv", "name,minx,miny,minz,maxx,maxy,maxz\n1,0,0,0,1,1,1\n0,5,5,5,6,6,6\n");
   EXPECT_NE(whyOf(names, "1", "0").find("'1' (0) "), std::string::npos) << "by name";
-  EXPECT_NE(whyOf(names, "#1", "0").find("'0' (1) is no pair with itself"), std::string::npos) << whyOf(names, "#1", "0");
+  EXPECT_NE(whyOf(names, "#1", "0").find("'0' (1) is no pair with itself"), std::string::npos)
+      << whyOf(names, "#1", "0");
 }
 
 TEST(Why, SaysThatADistanceKeepsAModelFromItself) {
