@@ -32,6 +32,10 @@ inline void refusePickling(const pybind11::module_& module) {
   }
 }
 
+/// The text, from a place in it on, with the arguments of load() in the place of the options of the command, which reads
+/// alike.
+[[nodiscard]] std::string withArguments(std::string text, std::size_t begin = 0);
+
 /// Text as Python has it: of a file, whose bytes may be no UTF-8 and are then shown by number.
 [[nodiscard]] inline pybind11::object textOf(std::string_view text) {
   const auto size = static_cast<Py_ssize_t>(text.size());

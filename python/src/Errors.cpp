@@ -31,22 +31,6 @@ bool isWord(std::string_view text, std::size_t at, std::size_t size) {
          !(at + size < text.size() && isInWord(text[at + size]));
 }
 
-/// The text with the arguments of load() in the place of the options of the command, which reads alike.
-std::string withArguments(std::string text, std::size_t begin) {
-  static constexpr std::pair<std::string_view, std::string_view> kNames[] = {{" of detect, info, view and report", ""},
-                                                                             {"--data DIR", "search_roots"},
-                                                                             {"--data", "search_roots"},
-                                                                             {"--max-memory", "max_memory"},
-                                                                             {"--allow-outside", "allow_outside"},
-                                                                             {"--partial", "partial"},
-                                                                             {"--recursive", "recursive"}};
-  for (const auto& [option, argument] : kNames) {
-    for (std::size_t at = text.find(option, begin); at != std::string::npos; at = text.find(option, at + 1))
-      if (isWord(text, at, option.size())) text.replace(at, option.size(), argument);
-  }
-  return text;
-}
-
 /// What a FileError says, from behind its path on in words of Python.
 std::string whatOf(const FileError& error) {
   return withArguments(error.what(), std::min(error.path().string().size(), std::string_view(error.what()).size()));
@@ -76,6 +60,21 @@ void translate(std::exception_ptr pointer) {
 }
 
 }  // namespace
+
+std::string withArguments(std::string text, std::size_t begin) {
+  static constexpr std::pair<std::string_view, std::string_view> kNames[] = {{" of detect, info, view and report", ""},
+                                                                             {"--data DIR", "search_roots"},
+                                                                             {"--data", "search_roots"},
+                                                                             {"--max-memory", "max_memory"},
+                                                                             {"--allow-outside", "allow_outside"},
+                                                                             {"--partial", "partial"},
+                                                                             {"--recursive", "recursive"}};
+  for (const auto& [option, argument] : kNames) {
+    for (std::size_t at = text.find(option, begin); at != std::string::npos; at = text.find(option, at + 1))
+      if (isWord(text, at, option.size())) text.replace(at, option.size(), argument);
+  }
+  return text;
+}
 
 void bindErrors(py::module_& /*module*/) { py::register_local_exception_translator(translate); }
 

@@ -40,8 +40,8 @@ py::tuple modelOf(const LoadedScene& scene, std::size_t index) {
 py::list remarkList(std::span<const scene::Remark> from) {
   py::list remarks;
   for (const scene::Remark& remark : from) {
-    remarks.append(py::make_tuple(pathOf(remark.file), remark.line, textOf(remark.subject), textOf(remark.reason),
-                                  remark.isPartial));
+    remarks.append(py::make_tuple(pathOf(remark.file), remark.line, textOf(remark.subject),
+                                  textOf(withArguments(remark.reason)), remark.isPartial));
   }
   return remarks;
 }

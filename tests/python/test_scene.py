@@ -185,6 +185,10 @@ def test_errors_name_arguments_and_not_options_of_the_command(tmp_path):
     (tmp_path / "gear.step").write_text("")
     with pytest.raises(allpairs.FileError, match="glTF, STL or OBJ; partial leaves it out$"):
         allpairs.load(tmp_path)
+    (tmp_path / "more").mkdir()
+    reasons = [remark.reason for remark in allpairs.load(tmp_path, partial=True).remarks]
+    assert "is a folder; folders within a folder are not searched without recursive" in reasons
+    assert not any("--" in reason for reason in reasons)
 
 
 def test_names_and_errors_of_files_that_are_no_utf8_show_their_bytes(tmp_path):

@@ -257,6 +257,24 @@ TEST(MeshFolder, ACadFileIsAnErrorUnlessPartialOrThereAsAMeshToo) {
   EXPECT_FALSE(whole.remarks[0].isPartial);
 }
 
+TEST(MeshFolder, WhatMacOsKeepsBesideAFileIsNoMesh) {
+  const TempFolder folder;
+  const std::string mesh = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+  folder.write("cube.obj", mesh);
+  folder.write("._cube.obj", std::string("\0\5\x16\7\0\2\0\0Mac OS X", 16));
+  folder.write("._gear.step", std::string("\0\5\x16\7", 4));
+  const scene::Scene scene = scene::readInput(folder.path());
+  EXPECT_EQ(scene.models.size(), 1U);
+  ASSERT_EQ(scene.remarks.size(), 2U);
+  EXPECT_EQ(scene.remarks[0].subject, "._cube.obj");
+  EXPECT_FALSE(scene.remarks[0].isPartial);
+  // The name alone leaves nothing out.
+  folder.write("._cube.obj", mesh);
+  EXPECT_EQ(scene::readInput(folder.path()).models.size(), 2U);
+  folder.write("._cube.obj", std::string("\0\5", 2));
+  expectFileError([&] { (void)scene::readInput(folder.path()); }, "");
+}
+
 TEST(MeshFolder, IsReadWithTheFoldersWithinItOnlyWhereThatIsAskedFor) {
   const TempFolder folder;
   for (const char* part : {"left/door", "right/door", "right/empty"}) {

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <array>
+#include <fstream>
 #include <memory>
 #include <set>
 #include <string>
@@ -97,6 +99,15 @@ Remark remarkOfMissing(const fs::path& path, const FileError& problem) {
           .isPartial = true};
 }
 
+/// Whether this is what macOS keeps of a file's properties beside it, as `._part.stl` beside `part.stl`, on disks that are
+/// not its own and in archives: AppleDouble (RFC 1740), whose first four bytes are these.
+bool isAppleDouble(const fs::path& file) {
+  if (!file.filename().string().starts_with("._")) return false;
+  std::array<char, 4> begin{};
+  std::ifstream(file, std::ios::binary).read(begin.data(), begin.size());
+  return begin == std::array<char, 4>{0x00, 0x05, 0x16, 0x07};
+}
+
 /// Finds the mesh files of a folder; its other entries become remarks.
 class MeshSearch {
  public:
@@ -123,6 +134,8 @@ class MeshSearch {
     const bool isSpecial = fs::exists(entry, ignored) && !fs::is_regular_file(entry, ignored);
     if (fs::is_directory(entry, ignored)) {
       takeFolder(entry);
+    } else if (!isSpecial && isAppleDouble(entry)) {
+      remarkOn(entry, "is what macOS keeps of a file's properties, no mesh");
     } else if (!isSpecial && isCadFile(entry)) {
       cadFiles.push_back(entry);
     } else if (isSpecial || !isMeshFile(entry)) {
