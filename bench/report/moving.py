@@ -142,12 +142,12 @@ def frames_section(records):
     heading = ["boxes", "who", "frames", "median", "99 %", "worst", "to the world", "in tens", "to the world in tens"]
     return (
         "### Moving boxes\n\nEach contender gives the pairs of each frame, which are compared with those of the "
-        "others; *world* also lists which pairs began, persist and ended. The cubes fill a tenth of the room's "
-        "volume, as in Broadmark. In each frame a box moves by a tenth of its side, in *slow* by a hundredth; in "
-        "*one-percent* most boxes rest. Contenders are interleaved frame by frame, so that each finds the caches "
-        "filled with the others' data; *in tens* they alternate every ten frames, which is closer to a program that "
-        "uses one of them. The ratios are medians over the frames of both, of the contender's time divided by the "
-        "world's.\n\n"
+        "others; *world* also lists which pairs\nbegan, persist and ended.\n\n"
+        "- **Scenes**: cubes that fill a tenth of the room's volume, as in Broadmark. In each frame a box moves by a "
+        "tenth of its side, in *slow* by\n  a hundredth; in *one-percent* most boxes rest.\n"
+        "- **Turns**: contenders are interleaved frame by frame, so that each finds the caches filled with the others' "
+        "data. *In tens* they\n  alternate every ten frames, which is closer to a program that uses one of them.\n"
+        "- **Ratios** are medians, over the frames of both, of the contender's time divided by the world's.\n\n"
         "![Time of a frame](images/benchmarks/moving.svg)\n\n" + _grid(heading, 2, rows)
     )
 
@@ -183,7 +183,7 @@ def cycle_section(records):
     heading = ["models", "motion", "pairs", "kept", FULL, "ratio"]
     return (
         "### The component, step after step\n\n`BruteForceBroadPhase` from begin to end of a step, with one box model "
-        "per node. *Kept* reuses the last search, *full rebuild* searches all models in each step ([decision "
+        "per node. *Kept* reuses the last search;\n*full rebuild* searches all models in each step ([decision "
         "13](decisions/0013-component-keeps-its-search.md)).\n\n"
         "![Time of a step of the component](images/benchmarks/cycle.svg)\n\n" + _grid(heading, 2, rows)
     )
@@ -218,8 +218,9 @@ def queries_section(records):
     heading = ["of", "query", "who", "results", f"{each} queries", "ratio"]
     return (
         "### Queries\n\nEach cube overlaps about five others; queries are at random positions among them, in random "
-        "order. Trees are built before the clock starts. Results are compared: ids exactly, times and distances up to "
-        "the peers' rounding to float32. Ours are computed in float64.\n\n![Time of a batch of "
+        "order. Trees are built before\nthe clock starts. A ratio below 1 is a peer that is faster than our batch.\n\n"
+        "Results are compared: ids exactly, times and distances up to the peers' rounding to float32. Ours are computed "
+        "in float64.\n\n![Time of a batch of "
         "queries](images/benchmarks/queries.svg)\n\n"
         + _grid(heading, 3, contest_rows(records, "in a batch"))
     )
@@ -228,10 +229,11 @@ def queries_section(records):
 def elements_section(records):
     heading = ["step", "list", "who", "candidates", "time", "ratio"]
     return (
-        "### Candidates of deforming meshes\n\nSteps of the Scalable-CCD sample data. Our times run from float64 "
-        "positions at start and end to the list, keeping only the topology; *second step* also reuses memory. Peers "
-        "receive precomputed boxes, in float32 rounded outward, which adds some pairs, and remove pairs with a common "
-        "vertex afterwards.\n\n"
+        "### Candidates of deforming meshes\n\nSteps of the Scalable-CCD sample data.\n\n"
+        "- **Ours**: from float64 positions at start and end to the list, keeping only the topology; *second step* also "
+        "reuses memory.\n"
+        "- **Peers** receive precomputed boxes, in float32 rounded outward, which adds some pairs. They remove pairs with "
+        "a common vertex afterwards.\n\n"
         "![Time of a list of candidates](images/benchmarks/elements.svg)\n\n" + _grid(heading, 3, contest_rows(records, "once"))
     )
 

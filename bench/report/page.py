@@ -22,7 +22,7 @@ METHOD = """## How it is measured
 - **What**: one search from boxes in memory, rows of six float32, to an array of pairs in memory. It includes the check
   for NaNs and every copy, sort and tree. Nothing is kept from the previous search except freed memory that glibc's
   allocator keeps. Teardown is not timed, except where a sample holds many runs because one takes less than a
-  millisecond. *Warm* is the same search with a reused `OverlapSearch` object.
+  millisecond.
 - **Time**: processor time of the whole process, all threads together; on one thread it equals wall time on an idle
   machine and is hardly affected by other load. Times are medians; the records also hold wall time, spread and
   repetitions.
@@ -33,7 +33,17 @@ METHOD = """## How it is measured
 - **Same answer**: each contender's complete list of pairs is compared with ours before its time counts.
   The hash is FNV-1a, 64 bits, over the pairs in the order (first, second), each as two 32-bit little-endian numbers.
 - **Compilation**: everything with -O3 and without assertions; header-only peers (CGAL, Boost.Geometry) and
-  the native loop also with -march=native. Allpairs selects its instruction set at run time.
+  the native loop also with -march=native. Allpairs selects its instruction set at run time; AVX3 is AVX-512.
+
+The sections below have a table for each scene. Our columns are:
+
+| column | what |
+|---|---|
+| unordered | `Order::Unordered`: pairs in the order of discovery |
+| ordered | pairs by (first, second) |
+| overlaps(boxes) | the same from the function `overlaps()`, in a vector |
+| memory kept | the unordered search with a reused `OverlapSearch` object |
+| count only | no pairs, only their number |
 """
 
 PEERS = """## The peers
@@ -138,9 +148,10 @@ def _summary(table):
     rows = [_summary_row(scene, boxes, cell) for scene, boxes, cell in cells if OURS in cell]
     heading = ["scene", "pairs", "unordered", "overlaps(boxes)", "best peer", "which", "ratio", "native loop"]
     return (
-        "## Summary\n\nOne thread, from boxes to pairs. *Unordered* gives pairs in the order of discovery, "
-        "`overlaps(boxes)` by (first, second), in a vector. The ratio is the best packaged peer's time divided by ours, "
-        "both unordered; the last column is the same ratio for two loops compiled for this processor.\n\n"
+        "## Summary\n\nOne thread, from boxes to pairs.\n\n"
+        "- *Unordered* gives pairs in the order of discovery, *overlaps(boxes)* by (first, second), in a vector.\n"
+        "- *Ratio* is the best packaged peer's time divided by ours, both unordered.\n"
+        "- *Native loop* is the same ratio for two loops compiled for this processor.\n\n"
         + _grid(heading, rows)
     )
 
@@ -219,9 +230,9 @@ def _external(table):
     if not rows:
         return ""
     text = (
-        "## Programs that are not packaged\n\nMeasured by hand on boxes from `allpairs generate`, and recorded in "
-        "[benchmarks-external.csv](benchmarks-external.csv), which says how and on which machine: another one than "
-        "above. The ratio is to our time in the same run, where that is recorded.\n\n"
+        "## Programs that are not packaged\n\nMeasured by hand on boxes from `allpairs generate`, on another machine than "
+        "above; [benchmarks-external.csv](benchmarks-external.csv)\nsays how and on which. The ratio is to our time in the "
+        "same run, where that is recorded.\n\n"
     )
     return text + _grid(["boxes", "program", "setting", "time", "pairs", "same pairs", "ratio"], rows)
 

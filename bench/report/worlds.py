@@ -5,11 +5,17 @@ import csv
 
 TEXT = """## Many worlds
 
-Uniform boxes, about two pairs a box: processor time in milliseconds for all worlds, one thread, from arrays to the lists of
-each world; medians of rounds on other worlds, in which the ways took turns. *Loop* is an `OverlapSearch` that is kept, called for
-each world; *side by side* one call for all worlds, moved apart; *kept* a `WorldsSearch` that is kept; *once* the function
-`overlapsInWorlds()`. Recorded in [benchmarks-worlds.csv](benchmarks-worlds.csv) as `worlds_benchmark` prints it
-([decision 26](decisions/0026-many-worlds.md)).
+Milliseconds of processor time for all worlds, one thread, from arrays to the lists of each world. Uniform boxes, about two pairs
+a box; medians of rounds on other worlds, in which the ways took turns ([decision 26](decisions/0026-many-worlds.md)).
+
+| way | what |
+|---|---|
+| loop | an `OverlapSearch` that is kept, called for each world |
+| side by side | one call for all worlds, moved apart |
+| kept | a `WorldsSearch` that is kept |
+| once | the function `overlapsInWorlds()` |
+
+Recorded in [benchmarks-worlds.csv](benchmarks-worlds.csv) as `worlds_benchmark` prints it:
 
 """
 
