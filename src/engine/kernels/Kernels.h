@@ -226,6 +226,9 @@ struct Kernels {
   /// Up to this many boxes of one set, testing all pairs takes less time than a hierarchy (docs/decisions/0009).
   std::size_t flatBoxes;
 
+  /// Up to this many boxes of one world, testing all pairs in double takes less time than rounding boxes to lanes.
+  std::size_t wideBoxes;
+
   /// So many tests of a join take as long as putting a pair in order by buckets (docs/decisions/0025).
   double testsForPair;
 

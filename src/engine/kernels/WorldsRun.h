@@ -16,10 +16,6 @@ namespace allpairs::engine {
 /// and the boxes and the hits of 64 of them fit the first-level cache (worlds_benchmark).
 inline constexpr std::size_t kMostInWorld = 448;
 
-/// In double a vector holds half as many: from here on the lanes of float32 that a search of the world alone uses are
-/// faster (worlds_benchmark).
-inline constexpr std::size_t kMostInDouble = 96;
-
 /// Boxes whose hits make a word of bits.
 inline constexpr std::size_t kWordBoxes = 64;
 

@@ -29,7 +29,7 @@ void SmallWorlds::start(const BoxStore& store, const PairTest& filter, std::size
   const std::size_t most = std::min(kMostFew, m_kernels.flatBoxes + m_kernels.flatBoxes / 2);
   m_takesChanged = onlyBoundsMatter && !store.isNumbered() && m_boxes->size() <= most;
   const std::size_t listed = store.isNumbered() ? kMostInWorld : kMostAlone;
-  m_mostBoxes = std::min({listed, m_kernels.flatBoxes, m_isPlain ? kMostInWorld : kMostInDouble});
+  m_mostBoxes = std::min({listed, m_kernels.flatBoxes, m_isPlain ? kMostInWorld : m_kernels.wideBoxes});
   m_workers.require(threads);
   for (std::size_t i = 0; i < m_workers.size(); ++i) m_workers[i].boxTests = 0;
 }

@@ -58,7 +58,7 @@ void WorldsSearcher::begin(const Worlds& worlds, const OverlapOptions& options) 
   const BoxView& boxes = worlds.boxes();
   m_isPlain = options.distance == 0.0 && !options.region && !boxes.hasMargins() && areRun<float>(boxes);
   m_mostBoxes = mostBoxesOf(*m_kernels, options);
-  if (!m_isPlain) m_mostBoxes = std::min(m_mostBoxes, kMostInDouble);
+  if (!m_isPlain) m_mostBoxes = std::min(m_mostBoxes, m_kernels->wideBoxes);
   m_filter.prepare(worlds, options, m_mostBoxes);
   m_workers.require(m_executor->concurrency());
   for (std::size_t i = 0; i < m_workers.size(); ++i) {
