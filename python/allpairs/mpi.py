@@ -3,9 +3,9 @@
 
 Every function is collective: all ranks of the communicator call it, each with boxes of its own. The boxes of a rank are
 numbered after those of the ranks before it. What one rank raises is raised on all. Ctrl-C waits for the end of the
-search: MPI has no way out of it for one rank. What Python itself refuses, such as a name of an argument that there is
-not, is raised on the rank that called so, and the others wait: `mpirun python3 -m mpi4py` ends them. Needs mpi4py (Debian: python3-mpi4py), and a build of this package for the
-same MPI.
+search: MPI has no way out of it for one rank. A call that Python itself refuses, such as one with an unknown argument,
+raises on its rank only, and the others wait; `mpirun -n 4 python3 -m mpi4py script.py` ends them all. Needs mpi4py
+(Debian: python3-mpi4py), and a build of this package for the same MPI.
 """
 
 from __future__ import annotations

@@ -32,8 +32,8 @@ inline void refusePickling(const pybind11::module_& module) {
   }
 }
 
-/// The text, from a place in it on, with the arguments of load() in the place of the options of the command, which reads
-/// alike.
+/// The text, from a place in it on, with the arguments of load() in the place of the options of the command, which
+/// reads alike.
 [[nodiscard]] std::string withArguments(std::string text, std::size_t begin = 0);
 
 /// Text as Python has it: of a file, whose bytes may be no UTF-8 and are then shown by number.

@@ -91,6 +91,10 @@ TEST(Why, NamesTheRule) {
   expectReason("/B/s", "/C/s", "are no pair: both are in the group 4\n");
   expectReason("/D/s", "/E/s", "are no pair: neither of them is simulated\n");
   expectReason("/A/s", "/G/s", "are no pair: '/G/s' (8) is outside of the region [-9, -9, -9] to [30, 9, 9]\n");
+  EXPECT_NE(whyOf(scene, "/A/t", "/F/s", {"--box", "-9,-9,-9,0.25,9,9"})
+                .find("'/F/s' (7) is outside of the region [-9, -9, -9] to [0.25, 9, 9]"),
+            std::string::npos)
+      << "--box in place of the scene's";
   expectReason("/A/s", "/H/s", "are no pair: '/H/s' (9) is not active\n");
   expectReason("/A/s", "/A/s", "'/A/s' (0) is no pair with itself: it may not collide with itself");
   expectReason("1", "1", "'/A/t' (1) is a pair with itself: selfCollision is on\n");

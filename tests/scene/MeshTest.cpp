@@ -268,7 +268,10 @@ TEST(MeshFolder, WhatMacOsKeepsBesideAFileIsNoMesh) {
   ASSERT_EQ(scene.remarks.size(), 2U);
   EXPECT_EQ(scene.remarks[0].subject, "._cube.obj");
   EXPECT_FALSE(scene.remarks[0].isPartial);
-  // The name alone leaves nothing out.
+  // Links are not followed to see what they are, and the name alone leaves nothing out.
+  std::filesystem::create_symlink(folder.path() / "._cube.obj", folder.path() / "._link.obj");
+  expectFileError([&] { (void)scene::readInput(folder.path()); }, "");
+  std::filesystem::remove(folder.path() / "._link.obj");
   folder.write("._cube.obj", mesh);
   EXPECT_EQ(scene::readInput(folder.path()).models.size(), 2U);
   folder.write("._cube.obj", std::string("\0\5", 2));

@@ -38,6 +38,11 @@ class SmallWorlds {
   /// Whether a world is so small that this search is the fastest one.
   [[nodiscard]] bool takes(std::size_t world) const noexcept;
 
+  /// What the search of a world takes, in tests of float32.
+  [[nodiscard]] std::size_t testsOf(std::size_t world) const noexcept {
+    return (m_isPlain ? 1 : 2) * WorldSink::pairsOf(m_members.size(world));
+  }
+
   /// Whether this search is the fastest one for some boxes of the only world with all: see searchChanged().
   [[nodiscard]] bool takesChanged() const noexcept { return m_takesChanged; }
 

@@ -14,6 +14,10 @@
 namespace allpairs::engine {
 namespace {
 
+/// Joining a changed box with its world takes as long as so many tests where all of a small world are made
+/// (docs/decisions/0031).
+constexpr std::size_t kTestsForChange = 2048;
+
 /// Whether to drop a hit of a changed box, the first of the pair: the partner is the box itself, or has changed too and
 /// finds the same pair from its side.
 bool isFoundTwice(const BoxStore& store, Pair pair) noexcept {
@@ -143,7 +147,8 @@ std::size_t WorldSearch::chooseChanged(const BoxStore& store) {
   std::size_t whole = 0;
   for (const std::uint32_t world : m_chosen) {
     const std::size_t size = m_members.size(world);
-    const bool isJoinedWhole = store.isNumbered() && m_small.takes(world);
+    const bool isJoinedWhole =
+        store.isNumbered() && m_small.takes(world) && m_small.testsOf(world) < m_touchedIn[world] * kTestsForChange;
     if (m_touchedIn[world] <= size / kShareToJoinAll && !isJoinedWhole) {
       m_partly.push_back(world);
       boxes += m_touchedIn[world];

@@ -99,10 +99,12 @@ Remark remarkOfMissing(const fs::path& path, const FileError& problem) {
           .isPartial = true};
 }
 
-/// Whether this is what macOS keeps of a file's properties beside it, as `._part.stl` beside `part.stl`, on disks that are
-/// not its own and in archives: AppleDouble (RFC 1740), whose first four bytes are these.
+/// Whether this is what macOS keeps of a file's properties beside it, as `._part.stl` beside `part.stl`, on disks that
+/// are not its own and in archives: AppleDouble (RFC 1740), whose first four bytes are these. A link is none, and its
+/// target may be one that must not be read.
 bool isAppleDouble(const fs::path& file) {
-  if (!file.filename().string().starts_with("._")) return false;
+  std::error_code ignored;
+  if (!file.filename().string().starts_with("._") || fs::is_symlink(file, ignored)) return false;
   std::array<char, 4> begin{};
   std::ifstream(file, std::ios::binary).read(begin.data(), begin.size());
   return begin == std::array<char, 4>{0x00, 0x05, 0x16, 0x07};
@@ -134,7 +136,7 @@ class MeshSearch {
     const bool isSpecial = fs::exists(entry, ignored) && !fs::is_regular_file(entry, ignored);
     if (fs::is_directory(entry, ignored)) {
       takeFolder(entry);
-    } else if (!isSpecial && isAppleDouble(entry)) {
+    } else if (!isSpecial && (isMeshFile(entry) || isCadFile(entry)) && isAppleDouble(entry)) {
       remarkOn(entry, "is what macOS keeps of a file's properties, no mesh");
     } else if (!isSpecial && isCadFile(entry)) {
       cadFiles.push_back(entry);
