@@ -63,6 +63,7 @@ TEST(Why, SaysOfAllPairsOfASceneWhatDetectFinds) {
   const std::string scene = folder.write("rules.scn", kRules);
   expectSamePairs(scene);
   expectSamePairs(scene, {"--distance", "30"});
+  expectSamePairs(scene, {"--box", "-9,-9,-9,0.25,9,9"});
 }
 
 TEST(Why, SaysOfAllPairsOfASceneOfFlatModelsWhatDetectFinds) {

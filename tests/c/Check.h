@@ -6,18 +6,6 @@
 
 #include "allpairs.h"
 
-// Whether a sanitizer watches: it needs the address space, and time. GCC says so by macros, Clang by what it has.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define IS_SANITIZED 1
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-#define IS_SANITIZED 1
-#endif
-#endif
-#ifndef IS_SANITIZED
-#define IS_SANITIZED 0
-#endif
-
 /// Ends the test unless the condition holds.
 #define ALLPAIRS_CHECK(condition)                                                                    \
   do {                                                                                               \

@@ -6,6 +6,18 @@
 
 #include "Check.h"
 
+// Sanitizers need the address space. GCC says so by macros, Clang by what it has.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define IS_SANITIZED 1
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define IS_SANITIZED 1
+#endif
+#endif
+#ifndef IS_SANITIZED
+#define IS_SANITIZED 0
+#endif
+
 enum { kBoxes = 20000 };  // in one place they have 200 million pairs, which is 1.6 GB
 
 static const rlim_t kMost = (rlim_t)640 << 20U;  // bytes of address space, stacks of threads included

@@ -13,7 +13,7 @@ MPIRUN = os.environ.get("ALLPAIRS_MPIRUN", "")
 pytestmark = pytest.mark.skipif(not MPIRUN, reason="needs a build with MPI")
 
 
-@pytest.mark.parametrize("ranks", [1, 2, 3])
+@pytest.mark.parametrize("ranks", [1, 2, 5])
 def test_ranks(ranks):
     script = pathlib.Path(__file__).with_name("mpi_ranks.py")
     command = [MPIRUN, "-n", str(ranks), sys.executable, str(script)]

@@ -270,12 +270,12 @@ TEST(MeshFolder, WhatMacOsKeepsBesideAFileIsNoMesh) {
   EXPECT_FALSE(scene.remarks[0].isPartial);
   // Links are not followed to see what they are, and the name alone leaves nothing out.
   std::filesystem::create_symlink(folder.path() / "._cube.obj", folder.path() / "._link.obj");
-  expectFileError([&] { (void)scene::readInput(folder.path()); }, "");
+  expectFileError([&] { (void)scene::readInput(folder.path()); }, "holds no triangles, lines or points");
   std::filesystem::remove(folder.path() / "._link.obj");
   folder.write("._cube.obj", mesh);
   EXPECT_EQ(scene::readInput(folder.path()).models.size(), 2U);
   folder.write("._cube.obj", std::string("\0\5", 2));
-  expectFileError([&] { (void)scene::readInput(folder.path()); }, "");
+  expectFileError([&] { (void)scene::readInput(folder.path()); }, "holds no triangles, lines or points");
 }
 
 TEST(MeshFolder, IsReadWithTheFoldersWithinItOnlyWhereThatIsAskedFor) {

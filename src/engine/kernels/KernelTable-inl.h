@@ -27,8 +27,8 @@ namespace {  // Each file that compiles the kernels has its own.
 constexpr std::size_t kFlatBoxes = HWY_TARGET == HWY_SCALAR ? 72 : HWY_TARGET <= HWY_AVX2 ? 256 : 192;
 static_assert(kFlatBoxes <= kMostFew);
 
-/// Measured by worlds_benchmark: vectors of AVX-512 test sixteen lanes of float32 at once, which makes up for rounding
-/// to them sooner.
+/// Measured by worlds_benchmark with AVX-512, AVX2 and SSE4: vectors of AVX-512 test sixteen lanes of float32 at once,
+/// which makes up for rounding to them sooner.
 constexpr std::size_t kWideBoxes = HWY_TARGET <= HWY_AVX3 ? 96 : HWY_MAX(kFlatBoxes, 96);
 
 /// Measured by dense_benchmark --axes 1, 2 and 3, with each instruction set.
