@@ -39,11 +39,12 @@ std::vector<Box> readFileOf(Choices& choices, test::JoinCase& with) {
   return boxes;
 }
 
-/// Little of everything, so that cells are cut, searched in parts, and pairs divided.
-join::Budget readBudget(Choices& choices) {
+/// Little of everything, so that cells are cut, searched in parts, and pairs divided. More of what there is much of: with
+/// one pair in each of a hundred thousand runs, all of them read for each row, an input took minutes.
+join::Budget readBudget(Choices& choices, std::size_t boxes, std::size_t pairs) {
   join::Budget budget = test::tinyBudget();
-  budget.cellBoxes = 4 + choices.below(120);
-  budget.bufferPairs = 1 + choices.below(100);
+  budget.cellBoxes = 4 + choices.below(120) + boxes / 16;
+  budget.bufferPairs = 1 + choices.below(100) + pairs / 100;
   budget.sampleBoxes = 1 + choices.below(200);
   budget.mergeBytes = 2'000 + 64 * choices.below(1000);
   return budget;
@@ -102,10 +103,11 @@ void runJoins(Bytes bytes) {
   }
   join::JoinOptions options = with.options();
   options.distance = choices.distance();
-  const join::Budget budget = readBudget(choices);
   const std::string expected = test::expectedBytes(boxes, options.distance);
+  const std::size_t pairs = test::pairsOfNpy(expected).size();
+  const join::Budget budget = readBudget(choices, boxes.size(), pairs);
   require(with.run(options, budget) == expected, "a join gives the pairs of the double loop");
-  require(with.count(options, budget) == test::pairsOfNpy(expected).size(), "and counts as many");
+  require(with.count(options, budget) == pairs, "and counts as many");
   endAndGoOn(choices, with, options, budget, expected);
 }
 

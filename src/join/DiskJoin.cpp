@@ -131,6 +131,11 @@ void DiskJoin::openFolder() {
 bool DiskJoin::tryToOpenFolder() {
   std::error_code problem;
   fs::create_directory(m_options.work, problem);  // none above it: a folder of that name is likely mistyped
+  if (problem == std::errc::file_exists) {
+    std::error_code ignored;
+    const fs::file_type now = fs::symlink_status(m_options.work, ignored).type();
+    if (now == fs::file_type::not_found || now == fs::file_type::directory) return false;  // a join ended meanwhile
+  }
   if (problem) throw FileError::ofSystem(m_options.work, "cannot be made", problem);
   const std::vector<std::string> names = scene::folderNames(m_options.work, problem);
   if (problem == std::errc::no_such_file_or_directory) return false;
