@@ -95,7 +95,8 @@ def join(
         .npy files of shape (n, 6), float32 or float64, as one set: numbered on from file to file.
     output : path
         A .npy file of shape (m, 2), uint32, or uint64 of more than 2**32 boxes in a set, ordered by (first, second):
-        what `overlaps` returns where that fits in memory. Without it the pairs are only counted.
+        what `overlaps` returns where that fits in memory. Without it the pairs are only counted. A name that ends in
+        something else is refused.
     second : path, or iterable of paths
         Files of a second set. The pairs are those of a box of the inputs and a box of these, what `overlaps_between`
         returns where that fits in memory; both sets are numbered by themselves.
@@ -143,6 +144,8 @@ def join(
 
     names = _names_of("inputs", inputs)
     target = None if output is None else _arguments.path_of("output", output)
+    if target is not None and os.path.splitext(target)[1].lower() not in ("", ".npy"):
+        raise InvalidArgument(f"output is {target!r}; a join writes .npy files")
     options = _reading.JoinOptions()
     options.distance = _arguments.number("distance", distance)
     options.memory = _arguments.whole("memory", memory)

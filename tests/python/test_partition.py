@@ -292,4 +292,6 @@ def test_join_says_what_is_wrong(tmp_path):
         allpairs.join([])
     with pytest.raises(allpairs.InvalidArgument, match="second names no file"):
         allpairs.join(tmp_path / "nan.npy", second=[])
+    with pytest.raises(allpairs.InvalidArgument, match="output is '.*pairs.csv'; a join writes .npy files"):
+        allpairs.join(tmp_path / "nan.npy", tmp_path / "pairs.csv")
     assert [path.name for path in tmp_path.iterdir()] == ["nan.npy"]
