@@ -168,12 +168,13 @@ export const ownText = (page, selector) => page.$eval(selector, (element) => ele
 export const number = async (page, selector) => Number((await ownText(page, selector)).replaceAll(",", ""));
 export const texts = (page, selector) => page.$$eval(selector, (elements) => elements.map((element) => element.textContent));
 
-/** What `take` gives once it gives the same twice, half a second apart, and is what is waited for; two minutes at most. */
+/** What `take` gives once it gives the same twice, half a second apart, and is what is waited for; fails after two minutes. */
 export async function settled(page, take, isAwaited = () => true) {
   const deadline = Date.now() + 120_000;
   for (let last; ; ) {
     const now = await take();
-    if ((now === last && isAwaited(now)) || Date.now() > deadline) return now;
+    if (now === last && isAwaited(now)) return now;
+    if (Date.now() > deadline) throw new Error(`what is waited for does not come; last it is ${String(now).slice(0, 80)}`);
     last = now;
     await page.waitForTimeout(500);
   }
