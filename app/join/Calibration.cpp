@@ -24,15 +24,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint64_t kLeastBoxes = 2'000'000;  // more than caches hold, and a second of work
-constexpr std::uint64_t kMostBoxes = 8'000'000;   // some seconds of work
-constexpr std::uint64_t kBytesPerBox = 128;       // of the memory: making them takes 48
+constexpr std::uint64_t kFewBoxes = 10'000;      // some milliseconds of work
+constexpr std::uint64_t kManyBoxes = 2'000'000;  // more than caches hold, and a second of work
+constexpr std::uint64_t kMostBoxes = 8'000'000;  // some seconds of work
+constexpr std::uint64_t kBytesPerBox = 128;      // of the memory: making them takes 48
 
 /// Boxes and pairs cost a quarter more each among 100 million than among 2: the nearer their numbers, the nearer the
-/// time. It takes a tenth of what the join takes, and of the memory less than a half.
+/// time. It takes a tenth of what a long join takes, of a short one as long, and of the memory less than a half.
 std::size_t boxesFor(const join::JoinSummary& plan, std::uint64_t memory) {
   const std::uint64_t most = memory == 0 ? kMostBoxes : std::min(memory / kBytesPerBox, kMostBoxes);
-  return static_cast<std::size_t>(std::clamp(plan.boxes / 16, std::min(kLeastBoxes, most), most));
+  const std::uint64_t least = std::clamp(plan.boxes, kFewBoxes, kManyBoxes);
+  return static_cast<std::size_t>(std::min(std::max(plan.boxes / 16, least), most));
 }
 
 /// A folder that is gone in the end.

@@ -262,9 +262,17 @@ TEST_F(JoinCommand, APlanTakesTheWorkFolderThatAJoinWouldMake) {
   EXPECT_NE(nowhere.err.find("none/new: no folder can be made in it"), std::string::npos) << nowhere.err;
 }
 
+/// The two million boxes that were joined for any plan need files of 48 MB.
+TEST_F(JoinCommand, APlanOfFewBoxesJoinsFewToMeasureTheTime) {
+  const ProgramRun run = runScript("cd '" + folder.path().string() + "' && ulimit -f 4096 && exec \"$0\" plan few.npy");
+  expectSuccess(run);
+  EXPECT_NE(run.out.find("\ntime     about "), std::string::npos) << run.out;
+}
+
 TEST(PlanCommand, LeavesNothingWhereASignalEndsIt) {
   const TempFolder folder;
-  const std::string boxes = folder.write("boxes.npy", npyBytes(toDouble(randomBoxes(300, 5))));
+  const std::string boxes = folder.path() / "boxes.npy";
+  expectSuccess(runProgram({"generate", "uniform", "-n", "1000000", "-o", boxes}));  // a second to measure the time
   const std::filesystem::path work = folder.path() / "work";
   std::filesystem::create_directory(work);
   for (const char* signal : {"TERM", "HUP"}) {
