@@ -30,7 +30,7 @@ constexpr std::uint64_t kMostBoxes = 8'000'000;  // some seconds of work
 constexpr std::uint64_t kBytesPerBox = 128;      // of the memory: making them takes 48
 
 /// Boxes and pairs cost a quarter more each among 100 million than among 2: the nearer their numbers, the nearer the
-/// time. It takes a tenth of what a long join takes, of a short one as long, and of the memory less than a half.
+/// time. It takes a tenth of what a long join takes, of a short one twice as long, and of the memory less than a half.
 std::size_t boxesFor(const join::JoinSummary& plan, std::uint64_t memory) {
   const std::uint64_t most = memory == 0 ? kMostBoxes : std::min(memory / kBytesPerBox, kMostBoxes);
   const std::uint64_t least = std::clamp(plan.boxes, kFewBoxes, kManyBoxes);

@@ -95,8 +95,8 @@ def join(
         .npy files of shape (n, 6), float32 or float64, as one set: numbered on from file to file.
     output : path
         A .npy file of shape (m, 2), uint32, or uint64 of more than 2**32 boxes in a set, ordered by (first, second):
-        what `overlaps` returns where that fits in memory. Without it the pairs are only counted. A name that ends in
-        something else is refused.
+        what `overlaps` returns where that fits in memory. A name that ends in something other than .npy is refused.
+        Without it the pairs are only counted.
     second : path, or iterable of paths
         Files of a second set. The pairs are those of a box of the inputs and a box of these, what `overlaps_between`
         returns where that fits in memory; both sets are numbered by themselves.

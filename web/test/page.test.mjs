@@ -119,11 +119,8 @@ async function allPairs(page) {
   for (let next = 0; next < count;) {
     await page.$eval("#pairs-list", (list, part) => (list.scrollTop = part * list.scrollHeight), next / count);
     await page.waitForSelector(`#pairs-list .row[data-index="${next}"]`, { state: "attached" });
-    const rows = await page.$$eval("#pairs-list .row", (rows) => rows.map((row) => [Number(row.dataset.index), [...row.querySelectorAll(".name")].map((name) => name.textContent)]));
-    for (const names = new Map(rows); names.has(next); ++next) {
-      const [first, second = first] = names.get(next);
-      pairs.add([first, second].sort().join(" | "));
-    }
+    for (const row of await rowsOf(page, "pairs-list")) pairs.add([row[0], row[1] ?? row[0]].sort().join(" | "));
+    next = await page.$$eval("#pairs-list .row", (rows) => 1 + Math.max(...rows.map((row) => Number(row.dataset.index))));
   }
   return pairs;
 }
