@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <string>
 
-#include "allpairs/Error.h"
 #include "allpairs/scene/BoxRows.h"
 #include "allpairs/scene/FileError.h"
 
@@ -67,7 +66,7 @@ BoxView BoxShare::view() const {
     boxes.setMargins(m_margins);
     return boxes;
   } catch (const InvalidBox& problem) {
-    failAt(m_begin + problem.index());
+    fail(problem);
   }
 }
 
@@ -77,10 +76,11 @@ scene::EmptyBoxes BoxShare::empty() const {
   return empty;
 }
 
-void BoxShare::failAt(std::uint64_t box) const {
+void BoxShare::fail(const InvalidBox& problem) const {
+  const std::uint64_t box = m_begin + problem.index();
   const auto file = std::upper_bound(m_ends.begin(), m_ends.end(), box) - m_ends.begin();
   const std::uint64_t before = file == 0 ? 0 : m_ends[static_cast<std::size_t>(file) - 1];
-  throw FileError(m_paths[static_cast<std::size_t>(file)], "box " + std::to_string(box - before) + " has a NaN");
+  throw FileError(m_paths[static_cast<std::size_t>(file)], problem.messageOf(box - before));
 }
 
 }  // namespace allpairs::app

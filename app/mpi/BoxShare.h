@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "allpairs/BoxView.h"
+#include "allpairs/Error.h"
 #include "allpairs/Filter.h"
 #include "allpairs/scene/BoxValues.h"
 #include "allpairs/scene/EmptyBoxes.h"
@@ -29,7 +30,7 @@ class BoxShare {
 
   /// With their margins.
   ///
-  /// Bad input: a NaN throws FileError, which names file and box.
+  /// Bad input: a NaN throws FileError, which names file, box and bound.
   [[nodiscard]] BoxView view() const;
 
   [[nodiscard]] FilterBits bits() const;
@@ -45,7 +46,7 @@ class BoxShare {
   void read(std::vector<Number>& rows);
   template <class Number>
   [[nodiscard]] std::vector<Number> valuesOf(std::span<const std::filesystem::path> paths, scene::BoxValue kind) const;
-  [[noreturn]] void failAt(std::uint64_t box) const;
+  [[noreturn]] void fail(const InvalidBox& problem) const;
 
   std::span<const std::filesystem::path> m_paths;
   std::vector<std::uint64_t> m_ends;  ///< Of each file, behind the number of its last box.

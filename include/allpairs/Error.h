@@ -67,10 +67,27 @@ class InvalidBox : public Error {
  public:
   InvalidBox(std::size_t index, const std::string& message) : Error(message), m_index(index) {}
 
+  /// Of a box that has no name but its index: "box 3: min z is not a number (NaN)".
+  [[nodiscard]] static InvalidBox ofSet(std::size_t index, const std::string& problem) {
+    InvalidBox result(index, describe(index, problem));
+    result.m_problem = problem;
+    return result;
+  }
+
   [[nodiscard]] std::size_t index() const noexcept { return m_index; }
 
+  /// The message where the box has another number, as in a file whose boxes the set is a part of.
+  [[nodiscard]] std::string messageOf(std::uint64_t number) const {
+    return m_problem.empty() ? what() : describe(number, m_problem);
+  }
+
  private:
+  static std::string describe(std::uint64_t number, const std::string& problem) {
+    return "box " + std::to_string(number) + ": " + problem;
+  }
+
   std::size_t m_index;
+  std::string m_problem{};  ///< Without the box; empty where that has a name.
 };
 
 /// More pairs than the caller allowed, or has memory for.

@@ -20,7 +20,7 @@ BoxView viewOf(const scene::BoxRows& file, std::uint64_t begin, std::span<const 
   try {
     return BoxView::fromRows(rows);
   } catch (const InvalidBox& problem) {
-    throw FileError(file.path(), "box " + std::to_string(begin + problem.index()) + " has a NaN");
+    throw FileError(file.path(), problem.messageOf(begin + problem.index()));
   }
 }
 

@@ -89,7 +89,7 @@ class BoxInput {
 
   /// Reads all boxes in order, some thousands at a time: the first set, and then the second.
   ///
-  /// Bad input: a NaN throws FileError, which names file and box; so does a file that has become longer or shorter.
+  /// Bad input: a NaN throws FileError, which names file, box and bound; so does a file that has become longer or shorter.
   void forEachBlock(Visitor visit);
 
   /// About `count` boxes with their margins, spread over the files; all boxes if there are fewer.

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -260,6 +261,17 @@ TEST_F(JoinCommand, APlanTakesTheWorkFolderThatAJoinWouldMake) {
   const ProgramRun nowhere = runProgram({"plan", few, "--work", in("none/new")});
   EXPECT_EQ(nowhere.status, kBadInput);
   EXPECT_NE(nowhere.err.find("none/new: no folder can be made in it"), std::string::npos) << nowhere.err;
+}
+
+TEST_F(JoinCommand, NamesTheBoundThatIsNoNumber) {
+  boxes[7].min[2] = std::numeric_limits<double>::quiet_NaN();
+  const std::string nan = folder.write("nan.npy", npyBytes(boxes)).string();
+  const std::string problem = nan + ": box 7: min z is not a number (NaN)\n";
+  expectFailure(runProgram({"join", few, nan, "-o", in("pairs.npy")}), kBadInput, problem);
+  expectFailure(runProgram({"join", few, "--with", nan, "--count"}), kBadInput, problem);
+  expectFailure(runProgram({"plan", few, nan}), kBadInput, problem);
+  expectFailure(runProgram({"plan", few, nan, "--ranks", "4"}), kBadInput, problem);
+  EXPECT_FALSE(fs::exists(in("pairs.npy")));
 }
 
 /// The two million boxes that were joined for any plan need files of 48 MB.

@@ -96,8 +96,8 @@ TEST(BoxView, NamesTheBoxAndTheBoundThatIsNan) {
     FAIL() << "a NaN was taken";
   } catch (const InvalidBox& error) {
     EXPECT_EQ(error.index(), 3U);
-    EXPECT_THAT(error.what(), HasSubstr("box 3"));
-    EXPECT_THAT(error.what(), HasSubstr("max y"));
+    EXPECT_STREQ(error.what(), "box 3: max y is not a number (NaN)");
+    EXPECT_EQ(error.messageOf(5'000'000'000), "box 5000000000: max y is not a number (NaN)");
   }
 }
 

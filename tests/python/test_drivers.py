@@ -286,11 +286,11 @@ def test_what_is_wrong_ends_all_ranks_with_one_line(tmp_path, ranks):
         return ours[0]
 
     said = complaint(tmp_path / "good.npy", tmp_path / "bad.npy", "-o", out, status=3)
-    assert said.endswith("bad.npy: box 299 has a NaN")
+    assert said.endswith("bad.npy: box 299: max y is not a number (NaN)")
     assert "absent.npy" in complaint(tmp_path / "absent.npy", "--count", status=3)
     assert "absent.npy" in complaint(tmp_path / "good.npy", "--count", "--with", tmp_path / "absent.npy", status=3)
     said = complaint(tmp_path / "good.npy", "--count", "--with", tmp_path / "good.npy", tmp_path / "bad.npy", status=3)
-    assert said.endswith("bad.npy: box 299 has a NaN")
+    assert said.endswith("bad.npy: box 299: max y is not a number (NaN)")
     nowhere = tmp_path / "nowhere" / "pairs.npy"
     assert "nowhere/pairs.npy: cannot be created" in complaint(tmp_path / "good.npy", "-o", nowhere, status=3)
     assert "takes -o FILE" in complaint(tmp_path / "good.npy", status=2)

@@ -284,7 +284,7 @@ def test_join_says_what_is_wrong(tmp_path):
     boxes = some_boxes(10)
     boxes[4, 2] = np.nan
     np.save(tmp_path / "nan.npy", boxes)
-    with pytest.raises(allpairs.FileError, match="nan.npy: box 4 has a NaN"):
+    with pytest.raises(allpairs.FileError, match="nan.npy: box 4: min z is not a number"):
         allpairs.join(tmp_path / "nan.npy", tmp_path / "pairs.npy")
     with pytest.raises(allpairs.InvalidArgument, match="64 MiB"):
         allpairs.join(tmp_path / "nan.npy", memory=1)

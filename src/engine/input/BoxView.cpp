@@ -56,10 +56,10 @@ bool hasNanAt(const CornerView<T>& corner, std::ptrdiff_t i) {
     const double value = k < 3 ? box.min[k] : box.max[k - 3];
     if (std::isnan(value)) {
       const std::string bound = std::string(k < 3 ? "min " : "max ") + "xyz"[k % 3];
-      throw InvalidBox(index, "box " + std::to_string(index) + ": " + bound + " is not a number (NaN)");
+      throw InvalidBox::ofSet(index, bound + " is not a number (NaN)");
     }
   }
-  throw InvalidBox(index, "box " + std::to_string(index) + " has a NaN");
+  throw InvalidBox::ofSet(index, "has a NaN");
 }
 
 /// Up to so many values a loop here takes less time than finding the kernel for this processor (few_benchmark).
@@ -205,7 +205,7 @@ void BoxView::setMargins(Span<const double> margins) {
   double least = margins.empty() ? m_margin : margins.front();
   double greatest = least;
   for (std::size_t i = 0; i < margins.size(); ++i) {
-    if (!isDistance(margins[i])) throw InvalidBox(i, "box " + std::to_string(i) + ": its margin is NaN or -infinity");
+    if (!isDistance(margins[i])) throw InvalidBox::ofSet(i, "its margin is NaN or -infinity");
     least = std::min(least, margins[i]);
     greatest = std::max(greatest, margins[i]);
   }
