@@ -37,13 +37,23 @@ std::size_t boxesFor(const join::JoinSummary& plan, std::uint64_t memory) {
   return static_cast<std::size_t>(std::min(std::max(plan.boxes / 16, least), most));
 }
 
+/// Where to measure: the folder that a join would work in, or the one that it would make it in.
+fs::path placeFor(const fs::path& work) {
+  std::error_code ignored;
+  if (fs::exists(fs::symlink_status(work, ignored))) return work;
+  const fs::path above = (work.has_filename() ? work : work.parent_path()).parent_path();
+  return above.empty() ? "." : above;
+}
+
 /// A folder that is gone in the end.
 class Folder {
  public:
-  explicit Folder(const fs::path& place) : m_path((place / "allpairs-plan-XXXXXX").string()) {
-    if (::mkdtemp(m_path.data()) == nullptr) {
-      throw FileError::ofSystem(place, "no folder can be made in it", {errno, std::generic_category()});
-    }
+  explicit Folder(const fs::path& work) {
+    const fs::path place = placeFor(work);
+    m_path = (place / "allpairs-plan-XXXXXX").string();
+    if (::mkdtemp(m_path.data()) != nullptr) return;
+    const std::error_code problem(errno, std::generic_category());
+    throw FileError::ofSystem(work, place == work ? "no folder can be made in it" : "cannot be made", problem);
   }
   ~Folder() {
     std::error_code ignored;
@@ -71,10 +81,10 @@ double JoinCost::secondsFor(const join::JoinSummary& plan) const {
 }
 
 /// Counting has no pairs to write, so that the difference is theirs.
-JoinCost measureJoinCost(const fs::path& place, const join::JoinSummary& plan, join::JoinOptions options) {
+JoinCost measureJoinCost(const fs::path& work, const join::JoinSummary& plan, join::JoinOptions options) {
   const StopOnSignal signals;  // before the folder, which is gone when the program ends
   options.stop = signals.flag();
-  const Folder folder(place);
+  const Folder folder(work);
   const std::array<fs::path, 1> input{folder.file("boxes.npy")};
   writeBoxes(input[0], boxesFor(plan, options.memory));
   options.work = folder.file("work");

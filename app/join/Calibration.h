@@ -16,9 +16,11 @@ struct JoinCost {
   [[nodiscard]] double secondsFor(const join::JoinSummary& plan) const;
 };
 
-/// Measures it in some seconds, by joins of generated boxes in a folder within `place`, which is gone afterwards. The
-/// more boxes the plan has, the more are joined.
-[[nodiscard]] JoinCost measureJoinCost(const std::filesystem::path& place, const join::JoinSummary& plan,
+/// Measures it in some seconds, by joins of generated boxes in a folder within the work folder of a join, or beside it
+/// if it is not there; that is gone afterwards. The more boxes the plan has, the more are joined.
+///
+/// Bad input: a work folder that a join could not use throws FileError, which names it.
+[[nodiscard]] JoinCost measureJoinCost(const std::filesystem::path& work, const join::JoinSummary& plan,
                                        join::JoinOptions options);
 
 }  // namespace allpairs::app

@@ -4,11 +4,9 @@
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
-#include <system_error>
 
 #include "Commands.h"
 #include "allpairs/join/Join.h"
@@ -74,16 +72,6 @@ std::string ranksText(const join::RanksPlan& plan, const PlanSettings& settings)
                             mebibytes(plan.pairBytes));
 }
 
-/// Where to measure: the folder that a join would work in, or the one that it would make it in.
-std::filesystem::path placeToMeasure(const std::string& work) {
-  std::filesystem::path folder = work.empty() ? "." : work;
-  std::error_code ignored;
-  if (std::filesystem::exists(std::filesystem::symlink_status(folder, ignored))) return folder;
-  std::filesystem::path above = (folder.has_filename() ? folder : folder.parent_path()).parent_path();
-  if (above.empty()) above = ".";
-  return std::filesystem::is_directory(above, ignored) ? above : folder;  // an error then names what was given
-}
-
 void runPlan(const PlanSettings& settings) {
   join::JoinOptions options = joinOptions(settings.shared);
   const std::unique_ptr<Executor> executor = executorOf(settings.threads);
@@ -102,7 +90,7 @@ void runPlan(const PlanSettings& settings) {
   // What is known is said before what may fail, as where the disk is too small.
   Output(std::nullopt).write(planText(plan, settings.shared));
   clock.emplace("measuring the time of a join");
-  const JoinCost cost = measureJoinCost(placeToMeasure(settings.work), plan, options);
+  const JoinCost cost = measureJoinCost(settings.work.empty() ? "." : settings.work, plan, options);
   clock.reset();
   const double seconds = cost.secondsFor(plan);
   Output(std::nullopt).write(fmt::format("time     about {:.{}f} s\n", seconds, seconds < 10.0 ? 1 : 0));

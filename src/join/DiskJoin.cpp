@@ -135,6 +135,7 @@ bool DiskJoin::tryToOpenFolder() {
     std::error_code ignored;
     const fs::file_type now = fs::symlink_status(m_options.work, ignored).type();
     if (now == fs::file_type::not_found || now == fs::file_type::directory) return false;  // a join ended meanwhile
+    throw FileError(m_options.work, "is not a folder");
   }
   if (problem) throw FileError::ofSystem(m_options.work, "cannot be made", problem);
   const std::vector<std::string> names = scene::folderNames(m_options.work, problem);

@@ -258,9 +258,19 @@ TEST_F(JoinCommand, APlanTakesTheWorkFolderThatAJoinWouldMake) {
     EXPECT_NE(run.out.find("\ntime     about "), std::string::npos) << run.out;
   }
   EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), 1);
-  const ProgramRun nowhere = runProgram({"plan", few, "--work", in("none/new")});
-  EXPECT_EQ(nowhere.status, kBadInput);
-  EXPECT_NE(nowhere.err.find("none/new: no folder can be made in it"), std::string::npos) << nowhere.err;
+}
+
+TEST_F(JoinCommand, AWorkFolderThatCannotBeMadeIsNamedAsItWasGiven) {
+  const auto expectNamed = [&](const std::string& work, const std::string& problem) {
+    const ProgramRun plan = runProgram({"plan", few, "--work", work});
+    EXPECT_EQ(plan.status, kBadInput);
+    EXPECT_EQ(plan.err.find("allpairs: " + work + ": " + problem), 0U) << plan.err;
+  };
+  expectNamed(in("none/new"), "cannot be made: No such file or directory");
+  expectNamed(in("few.npy/new"), "cannot be made: Not a directory");
+  expectNamed("/proc/new", "cannot be made: ");  // nobody makes files there, not even root
+  expectNamed(few, "no folder can be made in it: Not a directory");
+  expectFailure(runProgram({"join", few, "--count", "--work", few}), kBadInput, few + ": is not a folder");
 }
 
 TEST_F(JoinCommand, NamesTheBoundThatIsNoNumber) {
