@@ -34,6 +34,12 @@ TEST(Assembly, IsWhatIsBelowTheFirstBranchUnderANameOfItsOwn) {
             (Assemblies{"arm", "arm", "arm#2", "node", "node#2"}));
 }
 
+TEST(Assembly, HasNoNumberThatIsAnothersName) {
+  EXPECT_EQ(assembliesOf(R"({"name": "all", "children": [1, 2, 3]}, {"name": "arm", "mesh": 0},
+{"name": "arm", "mesh": 0}, {"name": "arm#2", "mesh": 0})"),
+            (Assemblies{"arm", "arm#3", "arm#2"}));
+}
+
 TEST(Assembly, IsNoneWhereNothingBranchesOrAModelIsAboveTheBranch) {
   EXPECT_EQ(assembliesOf(R"({"name": "all", "children": [1, 2]}, {"name": "a", "mesh": 0}, {"name": "empty"})"),
             (Assemblies{""}));

@@ -59,11 +59,11 @@ TEST(PathName, IsNumberedWhereAllAreInOnePlace) {
 
 TEST(PathName, HasNoNumberThatIsAnothersName) {
   const Part numbered{"bolt#2", 1};
-  EXPECT_EQ(placedOf({{"plate", 0, {kBolt, kBolt, numbered, kBolt}}}),
-            (std::vector<Placed>{{"bolt", "plate/bolt"},
-                                 {"bolt#2", "plate/bolt#3"},
-                                 {"bolt#2#2", "plate/bolt#2"},
-                                 {"bolt#3", "plate/bolt#4"}}));
+  EXPECT_EQ(
+      placedOf({{"plate", 0, {kBolt, kBolt, numbered, kBolt}}}),
+      (std::vector<Placed>{
+          {"bolt", "plate/bolt"}, {"bolt#3", "plate/bolt#3"}, {"bolt#2", "plate/bolt#2"}, {"bolt#4", "plate/bolt#4"}}));
+  EXPECT_EQ(placedOf({kBolt, kBolt, numbered}), (std::vector<Placed>{{"bolt", ""}, {"bolt#3", ""}, {"bolt#2", ""}}));
   const Part door{"door", 0, {kBolt}};
   EXPECT_EQ(
       placedOf({{"car", 0, {door, door, {"door#2", 0, {kBolt}}}}}),

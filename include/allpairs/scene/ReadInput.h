@@ -21,7 +21,7 @@ namespace allpairs::scene {
 ///
 /// Each object, or node with a mesh, is a separate body: a model of its triangles, one of its lines and one of
 /// its points, as far as it has them. Models have the name in the file, else that of the file; a repeated name
-/// gets a number: "wheel#2".
+/// gets a number that makes it none of another: "wheel#2".
 /// Bad input: throws FileError; also for a file without geometry.
 [[nodiscard]] Scene readMesh(const std::filesystem::path& path, const ReadOptions& options = {});
 

@@ -47,11 +47,15 @@ std::vector<std::string> assembliesOf(const std::vector<NestedNode>& nodes, Read
   const std::vector<bool> shows = whichShow(nodes);
   const Branching branching = branchingOf(nodes, shows);
   if (!branching.exists) return assemblies;
+  const auto nameOf = [](const NestedNode& node) { return node.name.empty() ? "node" : node.name; };
   UniqueNames names;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    if (shows[i] && nodes[i].parent == branching.node) names.note(nameOf(nodes[i]));
+  }
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     if (!shows[i]) continue;
     if (nodes[i].parent == branching.node)
-      assemblies[i] = names.unique(nodes[i].name.empty() ? "node" : nodes[i].name);
+      assemblies[i] = names.unique(nameOf(nodes[i]));
     else if (nodes[i].parent != kNoNode)
       assemblies[i] = assemblies[nodes[i].parent];
     scope.take(assemblies[i].size());

@@ -166,6 +166,7 @@ class NodeReader {
   void nameProducts() {
     std::vector<PathName> names = pathNames(m_nodes, m_inNodes, m_scope);
     UniqueNames taken;
+    for (const PathName& name : names) taken.note(name.name);
     for (PathName& name : names) name.name = taken.unique(name.name);
     std::vector<std::size_t> sizes(m_products.size());
     for (const Origin& origin : m_origins) {

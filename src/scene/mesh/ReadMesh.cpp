@@ -199,8 +199,12 @@ void readInto(Scene& scene, const fs::path& path, ReadScope& scope) {
   const std::size_t owners = scene.owners.size();
   MeshFrame frame;
   try {
-    for (MeshObject& object : readObjects(path, scope, frame)) {
+    std::vector<MeshObject> objects = readObjects(path, scope, frame);
+    for (MeshObject& object : objects) {
       if (object.name.empty()) object.name = path.filename().string();
+      names.note(object.name);
+    }
+    for (MeshObject& object : objects) {
       if (!object.passedOver.empty()) {
         scene.remarks.push_back({.file = path, .subject = object.name, .reason = std::move(object.passedOver)});
       }
