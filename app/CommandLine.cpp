@@ -56,11 +56,12 @@ void complain(std::string message) {
   std::fprintf(stderr, "%s\n", message.c_str());
 }
 
-/// What CLI11 says of an option that has no value or several, in words: "--distance: D is missing".
+/// What CLI11 says of an option that has no value, too few or too many, in words: "--distance: D is missing".
 std::string countProblem(const CLI::ArgumentMismatch& problem) {
   std::string text = problem.what();
   const std::string option = text.substr(0, text.find(':'));
   if (text.find("At Most") != std::string::npos) return option + " may be given only once";
+  if (text.find("At least 2") != std::string::npos) return option + " takes two values, and got one";
   constexpr std::string_view kBefore = "1 required ";
   const std::size_t begin = text.find(kBefore);
   const std::size_t end = text.rfind(" missing");

@@ -35,7 +35,7 @@ complete -c allpairs -n '__fish_seen_subcommand_from detect' -l verify -d 'Also 
 complete -c allpairs -n '__fish_seen_subcommand_from detect' -l exact -d 'Test the shapes too: clashes with depth and position, distances of the other pairs'
 complete -c allpairs -n '__fish_seen_subcommand_from detect' -l worlds -d 'A .npy array (w, n, 6): pairs of boxes of the same world only'
 complete -c allpairs -n '__fish_seen_subcommand_from detect' -l fail-on -x -a 'pair clash' -d 'End with status 4 if there is a pair, or with --exact a clash'
-complete -c allpairs -n '__fish_seen_subcommand_from detect' -l why -x -d 'Say why two models, by name or number, are or are not a pair'
+complete -c allpairs -n '__fish_seen_subcommand_from detect' -l why -x -d 'Say why the models A and B, each by name or number, are or are not a pair'
 complete -c allpairs -n '__fish_seen_subcommand_from detect' -l format -x -a 'table csv json npy' -d 'Output format; default: by the extension of FILE, else table'
 complete -c allpairs -n '__fish_seen_subcommand_from detect' -s o -l output -r -F -d 'Write to FILE, which appears only when complete; -: standard output'
 complete -c allpairs -n '__fish_seen_subcommand_from detect' -l color -x -a 'auto always never' -d 'Colours in the table; auto: on a terminal, unless NO_COLOR is set'

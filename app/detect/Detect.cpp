@@ -277,8 +277,10 @@ void addDetect(CLI::App& program) {
   command->add_flag("--worlds", settings->worlds, "A .npy array (w, n, 6): pairs of boxes of the same world only");
   addChoice(*command, "--fail-on", settings->failOn, {"pair", "clash"})
       ->description("End with status 4 if there is a pair, or with --exact a clash");
-  command->add_option("--why", settings->why, "Say why two models, by name or number, are or are not a pair")
+  command
+      ->add_option("--why", settings->why, "Say why the models A and B, each by name or number, are or are not a pair")
       ->type_name("MODEL")
+      ->option_text("A B")
       ->expected(2);
   addFormat(*command, settings->format, kDetectFormats);
   addOutput(*command, settings->output);

@@ -60,6 +60,10 @@ TEST(HelpOfDetect, NamesAllThatTheManualDescribes) {
   }
 }
 
+TEST(HelpOfDetect, ShowsThatWhyTakesTwoModels) {
+  EXPECT_NE(runProgram({"detect", "--help"}).out.find("\n  --why A B  "), std::string::npos);
+}
+
 TEST(Help, OfACommandIsItsOwn) {
   for (const char* command : {"detect", "generate", "bench"}) {
     const ProgramRun run = runProgram({"help", command});

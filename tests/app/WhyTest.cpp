@@ -137,7 +137,8 @@ TEST(Why, WantsNamesThatSayWhichModel) {
   expectFailure(runProgram({"detect", boxes, "--why", "a", "c"}), kWrongUsage,
                 "--why: of 3 models, none has the name or the number 'c'; 'allpairs info' lists them");
   expectFailure(runProgram({"detect", boxes, "--why", "a", "3"}), kWrongUsage, "none has the name or the number '3'");
-  expectFailure(runProgram({"detect", boxes, "--why", "a"}), kWrongUsage, "--why");
+  expectFailure(runProgram({"detect", boxes, "--why", "a"}), kWrongUsage, "--why takes two values, and got one (see");
+  expectFailure(runProgram({"detect", boxes, "--why"}), kWrongUsage, "--why: MODEL is missing (see");
   expectFailure(runProgram({"detect", boxes, "--why", "a", "2", "--format", "csv"}), kWrongUsage,
                 "it takes no format csv");
   expectFailure(runProgram({"detect", boxes, "--why", "a", "2", "--verify"}), kWrongUsage, "it takes no --verify");
