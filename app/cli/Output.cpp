@@ -133,12 +133,17 @@ void Output::write(std::string_view bytes) {
   }
 }
 
-void Output::commit() {
-  if (m_target.empty()) return;
+void Output::complete() {
+  if (m_target.empty() || m_descriptor < 0) return;
   if (m_isNameless) giveName();
   if (::close(std::exchange(m_descriptor, -1)) != 0) fail("written");
+  if (!m_temporary.empty()) m_place = scene::resolvedTarget(m_target).string();
+}
+
+void Output::commit() {
+  complete();
   if (m_temporary.empty()) return;
-  if (::rename(m_temporary.c_str(), scene::resolvedTarget(m_target).c_str()) != 0) fail("put in its place");
+  if (::rename(m_temporary.c_str(), m_place.c_str()) != 0) fail("put in its place");
   keepOnSignal(m_temporary);
   m_temporary.clear();
 }

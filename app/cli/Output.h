@@ -27,6 +27,9 @@ class Output {
   [[nodiscard]] bool isFile() const { return m_isNameless || !m_temporary.empty(); }
   void write(std::string_view bytes);
 
+  /// All of commit() but to put the file in its place, which then takes no memory: of files that appear together.
+  void complete();
+
   /// The result is complete: puts the file in its place.
   void commit();
 
@@ -40,6 +43,7 @@ class Output {
 
   std::filesystem::path m_target;  ///< Empty for standard output.
   std::string m_temporary;         ///< Where the file is until it is complete; empty while it has no name.
+  std::string m_place;             ///< Where it belongs; empty until complete().
   bool m_isNameless = false;
   int m_descriptor = -1;
 };

@@ -103,6 +103,10 @@ class ElementFiles {
     m_report.files.push_back({std::string(key), path});
   }
 
+  void complete() {
+    for (const auto& file : m_files) file->complete();
+  }
+
   void commit() {
     for (const auto& file : m_files) file->commit();
   }
@@ -181,6 +185,8 @@ void runElements(const ElementSettings& settings) {
   findAll(candidates, wantsLists, files, report);
   output.write(formatOf(settings.format, settings.output, kElementFormats) == "json" ? jsonOf(report)
                                                                                      : tableOf(report));
+  files.complete();
+  output.complete();
   files.commit();
   output.commit();
   if (settings.output.empty()) return;
