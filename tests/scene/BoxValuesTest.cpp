@@ -161,7 +161,8 @@ TEST_F(BoxValuesOf, WhatIsWrongIsNamed) {
   expectProblem(npyNumbers<double>({1, 2}, "<f8"), BoxValue::Margin, "has 2 margins for 3 boxes");
   expectProblem(npyNumbers<std::uint8_t>({1}, "|u1"), BoxValue::Category, "has 1 category for 3 boxes");
   const std::string whole = npyNumbers<double>({1, 2, 3}, "<f8");
-  expectProblem(whole.substr(0, whole.size() - 1), BoxValue::Margin, "holds 23 bytes of numbers");
+  expectProblem(whole.substr(0, whole.size() - 1), BoxValue::Margin,
+                "holds 23 bytes of numbers where its shape (3,) needs 24");
   expectProblem(whole.substr(0, 20), BoxValue::Margin, "ends within its header");
   const std::filesystem::path good = folder.write("good.npy", whole);
   expectFileError(

@@ -26,18 +26,10 @@ void checkShape(const NpyHeader& header, const Path& path) {
   }
 }
 
-/// The file holds what its header says, no more and no less. Asked before anything is allocated for it.
-void checkLength(std::uint64_t size, std::uint64_t itemSize, const InputFile& file, const Path& path) {
-  const std::uint64_t expected = size * 6 * itemSize;
-  if (file.remaining() == expected) return;
-  throw FileError(path, "holds " + std::to_string(file.remaining()) + " bytes of numbers where its shape (" +
-                            std::to_string(size) + ", 6) needs " + std::to_string(expected));
-}
-
 template <class T>
 BoxArray readTable(const NpyHeader& header, InputFile& file, const Path& path) {
   const auto size = static_cast<std::size_t>(header.shape[0]);
-  checkLength(size, sizeof(T), file, path);
+  requireLength(header, sizeof(T), file, path);  // before anything is allocated for it
   BoxTable<T> table{std::make_unique_for_overwrite<T[]>(size * 6), size, header.fortranOrder};
   file.read(table.values.get(), size * 6 * sizeof(T));
   toNativeOrder(header, table.values.get(), size * 6);

@@ -50,8 +50,8 @@ void requireLength(const NpyHeader& header, std::uint64_t itemSize, const InputF
   std::uint64_t size = itemSize;
   for (const std::uint64_t extent : header.shape) size = extent != 0 && size > kMost / extent ? kMost : size * extent;
   if (size == file.remaining()) return;
-  throw FileError(path, "holds " + std::to_string(file.remaining()) +
-                            " bytes of numbers, which is not what its shape " + shapeText(header.shape) + " needs");
+  throw FileError(path, "holds " + std::to_string(file.remaining()) + " bytes of numbers where its shape " +
+                            shapeText(header.shape) + " needs " + (size == kMost ? "more" : std::to_string(size)));
 }
 
 bool holdsFloat32(const NpyHeader& header, const Path& path) {
