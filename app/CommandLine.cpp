@@ -23,6 +23,7 @@
 #include "cli/Arguments.h"
 #include "cli/ExitStatus.h"
 #include "cli/HelpFormatter.h"
+#include "cli/Options.h"
 #include "cli/Output.h"
 #include "cli/SignalCleanup.h"
 #include "cli/Suggestion.h"
@@ -123,13 +124,18 @@ std::string describeExtra(const CLI::App& program) {
   return "unknown option '" + name + "'" + hint;
 }
 
-/// CLI11 says "Could not convert: --name = text". All that it converts are numbers.
-std::string numberProblem(const CLI::ConversionError& problem) {
+/// CLI11 says "Could not convert: --name = text". All that it converts are numbers, and what a flag is given.
+std::string conversionProblem(const CLI::ConversionError& problem, const CLI::App& program) {
   std::string text = problem.what();
-  const std::size_t name = text.find("--");
-  const std::size_t value = text.find(" = ", name);
-  if (name == std::string::npos || value == std::string::npos) return text;
-  return text.substr(name, value - name) + ": '" + text.substr(value + 3) + "' is not a number";
+  const std::size_t begin = text.find("--");
+  const std::size_t value = text.find(" = ", begin);
+  if (begin == std::string::npos || value == std::string::npos) return text;
+  const std::string name = text.substr(begin, value - begin);
+  for (const CLI::App* command : program.get_subcommands()) {
+    const CLI::Option* option = command->get_option_no_throw(name);
+    if (option != nullptr && option->get_expected_max() == 0) return name + " takes no value";
+  }
+  return name + ": '" + text.substr(value + 3) + "' is not a number";
 }
 
 [[noreturn]] void failForCommand(const CLI::App& program, const std::string& word) {
@@ -178,7 +184,7 @@ void parse(CLI::App& program, const std::vector<std::string>& given) {
   } catch (const CLI::ArgumentMismatch& problem) {
     throw allpairs::app::UsageError(countProblem(problem));
   } catch (const CLI::ConversionError& problem) {
-    throw allpairs::app::UsageError(numberProblem(problem));
+    throw allpairs::app::UsageError(conversionProblem(problem, program));
   } catch (const CLI::ParseError& problem) {
     throw allpairs::app::UsageError(problem.what());
   }
@@ -232,6 +238,7 @@ int runProgram(int count, char** arguments) {
   allpairs::app::addGenerate(program);
   allpairs::app::addBench(program);
   allpairs::app::addCompletion(program);
+  allpairs::app::refuseEmptyValues(program);
   return static_cast<int>(run(program, count, arguments));
 }
 

@@ -183,7 +183,8 @@ Box parseRegion(const std::string& text) {
     begin = end + 1;
   }
   if (count != values.size()) {
-    throw UsageError("--box: '" + text + "' has " + std::to_string(count) + " numbers; x0,y0,z0,x1,y1,z1 are needed");
+    throw UsageError("--box: '" + text + "' has " + std::to_string(count) + (count == 1 ? " number" : " numbers") +
+                     "; x0,y0,z0,x1,y1,z1 are needed");
   }
   const Box box{{values[0], values[1], values[2]}, {values[3], values[4], values[5]}};
   const std::string problem = describeOrder(box);

@@ -62,8 +62,7 @@ void addBetweenInputs(CLI::App& command, InputSettings& settings) {
 void addInputs(CLI::App& command, InputSettings& settings) {
   command.add_option("INPUT", settings.paths, "Scenes, meshes, folders of meshes, box arrays; taken together")
       ->required()
-      ->type_name("")
-      ->check([](const std::string& name) { return std::string(name.empty() ? "the name of an input is empty" : ""); });
+      ->type_name("");
   command.add_flag("--recursive", settings.recursive, "Of a folder, also read the meshes of the folders within it");
   command.add_flag("--partial", settings.partial, "Ignore what cannot be placed or read");
   command
@@ -113,6 +112,28 @@ void takeCount(CLI::Option& option) {
   });
 }
 
+void takeNumber(CLI::Option& option, std::uint64_t least, std::uint64_t most) {
+  option.check([least, most](const std::string& text) {
+    const char* const last = text.data() + text.size();
+    std::uint64_t value = 0;
+    const auto [end, problem] = std::from_chars(text.data(), last, value);
+    if (problem == std::errc() && end == last && value >= least && value <= most) return std::string();
+    return fmt::format("'{}' is not a whole number from {} to {}", text, least, most);
+  });
+}
+
+void refuseEmptyValues(CLI::App& program) {
+  for (CLI::App* command : program.get_subcommands({})) {
+    for (CLI::Option* option : command->get_options()) {
+      if (option->get_expected_max() == 0) continue;  // a flag
+      option->transform([option](const std::string& text) {
+        if (text.empty()) throw UsageError(namesOf(*option) + ": the value is empty");
+        return text;
+      });
+    }
+  }
+}
+
 void addStrategy(CLI::App& command, std::string& strategy) {
   addChoice(command, "--strategy", strategy, {"auto", "exhaustive", "bvh"})
       ->description("Algorithm; all give the same pairs")
@@ -140,10 +161,7 @@ std::string formatOf(const std::string& format, const std::string& output, const
 CLI::Option* addOutput(CLI::App& command, std::string& path) {
   return command.add_option("-o,--output", path, "Write to FILE, which appears only when complete; -: standard output")
       ->type_name("FILE")
-      ->transform([](const std::string& text) -> std::string {
-        if (text.empty()) throw CLI::ValidationError("-o", "the name of a file is needed");
-        return text == "-" ? "" : text;
-      });
+      ->transform([](const std::string& text) { return text == "-" ? std::string() : text; });
 }
 
 std::optional<std::filesystem::path> targetOf(const std::string& path) {

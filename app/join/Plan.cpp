@@ -105,9 +105,9 @@ void addPlan(CLI::App& program) {
   addJoinArguments(*command, settings->shared);
   command->add_option("--work", settings->work, "The folder that a join would work in; default: this one")
       ->type_name("DIR");
-  command->add_option("--ranks", settings->ranks, "What so many ranks of MPI would send")
-      ->type_name("N")
-      ->check(CLI::Range(1, 1'000'000));
+  CLI::Option* const ranks = command->add_option("--ranks", settings->ranks, "What so many ranks of MPI would send");
+  ranks->type_name("N");
+  takeNumber(*ranks, 1, 1'000'000);
   addThreads(*command, settings->threads);
   command->callback([settings] { runPlan(*settings); });
 }

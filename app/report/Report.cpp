@@ -313,8 +313,7 @@ void addReport(CLI::App& program) {
       ->add_option(
           "--since", settings->since,
           "Compare with an earlier report: its folder, or its clashes.csv; rows are new, persisting or resolved")
-      ->type_name("DIR")
-      ->check([](const std::string& name) { return std::string(name.empty() ? "the name is empty" : ""); });
+      ->type_name("DIR");
   addChoice(*command, "--fail-on", settings->failOn, {"pair", "clash", "new"})
       ->description("End with status 4 if there is a pair, a clash, or one that is new since --since");
   command->add_flag("--open", settings->open, "Open the report in the browser");

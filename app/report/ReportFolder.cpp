@@ -75,9 +75,12 @@ void checkReportFolder(const fs::path& folder, bool force) {
   std::error_code ignored;
   if (looksLikeFile(folder) && !fs::exists(folder, ignored))
     throw UsageError("-o: '" + folder.string() + "': a report is a folder, which holds index.html and clashes.bcf");
-  if (fs::is_regular_file(folder, ignored)) throw FileError(folder, "is a file; -o takes a folder");
+  const auto isFile = [&ignored](const fs::path& path) {  // or a device
+    return fs::exists(path, ignored) && !fs::is_directory(path, ignored);
+  };
+  if (isFile(folder)) throw FileError(folder, "is a file; -o takes a folder");
   for (fs::path above = folder; above.has_relative_path(); above = above.parent_path()) {
-    if (fs::is_regular_file(above, ignored)) {
+    if (isFile(above)) {
       throw FileError(folder, "cannot create this folder: '" + above.string() + "' is a file");
     }
   }

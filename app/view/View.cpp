@@ -130,10 +130,10 @@ void addView(CLI::App& program) {
   command->add_flag("--open", settings->open, "Open the page in the browser");
   CLI::Option* const serve =
       command->add_flag("--serve", settings->serve, "Serve the page to this machine until the program is stopped");
-  command->add_option("--port", settings->port, "Port to serve on; 0, the default: any free port")
-      ->type_name("P")
-      ->check(CLI::Range(0, 65535))
-      ->needs(serve);
+  CLI::Option* const port =
+      command->add_option("--port", settings->port, "Port to serve on; 0, the default: any free port");
+  port->type_name("P")->needs(serve);
+  takeNumber(*port, 0, 65535);
   command->callback([settings] {
     const std::string extension = lowerExtension(settings->output);
     if (!extension.empty() && extension != ".html" && extension != ".htm") {

@@ -94,22 +94,44 @@ TEST(MistypedWords, GetASuggestionWhereTheyResembleOne) {
   expectUsage({"detect", "a.npy", "--picture"}, "unknown option '--picture' (see");
   expectUsage({"detect", "a.npy", "-x"}, "unknown option '-x' (see");
   expectUsage({"detect", "a.npy", "--" + std::string(5000, 'x')}, "unknown option '--xxx");
+  expectUsage({"detect", "a.npy", "--verify=often"}, "--verify takes no value (see");
   expectUsage({"--verify", "detect", "a.npy"}, "the option '--verify' comes behind 'detect' (see");
   expectUsage({"bench", "uniform", "--seed", "99999999999999999999"},
               "--seed: '99999999999999999999' is too large (see");
   expectUsage({"generate", "uniform", "-n", "-1"}, "-n, --boxes: '-1' is not a whole number from 0 on (see");
-  expectUsage({"detect", ""}, "the name of an input is empty (see");
   for (const std::string value : {"-1", "1.5", "1e999", "many"}) {
     expectUsage({"report", "a.obj", "-o", "b", "--pictures", value},
                 "--pictures: '" + value + "' is not a whole number from 0 on (see");
     expectUsage({"bench", "uniform", "--repetitions", value},
                 "--repetitions: '" + value + "' is not a whole number from 0 on (see");
   }
+  for (const std::string value : {"-1", "0", "1.5", "0x10", "1000001", "99999999999999999999", "many"}) {
+    expectUsage({"plan", "a.npy", "--ranks", value},
+                "--ranks: '" + value + "' is not a whole number from 1 to 1000000 (see");
+  }
+  expectUsage({"view", "a.obj", "--serve", "--port", "65536"}, "--port: '65536' is not a whole number from 0 to 65535");
   expectUsage({"report", "a.obj", "-o", "b", "--metres-per-unit", "foot"}, "--metres-per-unit: 'foot' is not a number");
   expectUsage({"detct", "a.npy"}, "unknown command 'detct' - did you mean detect? (see");
   expectUsage({"find"}, "unknown command 'find' (see");
   expectUsage({"--distance", "1"}, "a command comes first, not '--distance=1' (see");
   expectUsage({"generate", "uniform", "city"}, "one argument too many: 'city'");
+}
+
+/// As where a script's variable has no value: it must not be as if the option was not given.
+TEST(EmptyValues, AreRefused) {
+  const auto expectRefused = [](std::vector<std::string> words, const std::string& option) {
+    words.insert(words.end(), {option, ""});
+    expectFailure(runProgram(words), kWrongUsage, option + ": the value is empty (see");
+  };
+  expectFailure(runProgram({"detect", "a.npy", ""}), kWrongUsage, "INPUT: the value is empty (see");
+  expectFailure(runProgram({"join", "", "--count"}), kWrongUsage, "BOXES: the value is empty (see");
+  expectFailure(runProgram({"track", ""}), kWrongUsage, "FRAMES: the value is empty (see");
+  for (const char* option : {"--max-memory", "--data", "--sofa", "--threads", "--min-depth", "--format", "--why"})
+    expectRefused({"detect", "a.npy"}, option);
+  for (const char* option : {"--memory", "--work", "--with", "--margins"})
+    expectRefused({"join", "a.npy", "--count"}, option);
+  for (const char* option : {"--work", "--ranks"}) expectRefused({"plan", "a.npy"}, option);
+  for (const char* option : {"--since", "--fail-on", "--up"}) expectRefused({"report", "a.obj", "-o", "b"}, option);
 }
 
 TEST(Version, IsOneLine) {

@@ -123,8 +123,8 @@ TEST(OutputFile, IsOfTheFormatThatItsExtensionSaysInAnyCase) {
 
 TEST(OutputFile, WithoutANameIsWrongUsage) {
   const TempFolder folder;
-  expectFailure(runProgram({"detect", twoBoxes(folder), "-o", ""}), 2, "the name of a file is needed");
-  expectFailure(runProgram({"generate", "uniform", "-o", ""}), 2, "the name of a file is needed");
+  expectFailure(runProgram({"detect", twoBoxes(folder), "-o", ""}), 2, "-o, --output: the value is empty (see");
+  expectFailure(runProgram({"generate", "uniform", "-o", ""}), 2, "-o, --output: the value is empty (see");
 }
 
 TEST(OutputFile, OfANameThatEndsInNoFormatIsWrongUsage) {

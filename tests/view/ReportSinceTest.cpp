@@ -215,7 +215,7 @@ TEST(ReportSince, SaysWhatIsNoReport) {
   const std::string out = folder.path() / "out";
   expectFailure(runProgram({"report", kDemoScene, "-o", out, "--since", folder.path()}), 3,
                 "holds no report to compare with");
-  expectFailure(runProgram({"report", kDemoScene, "-o", out, "--since", ""}), 2, "--since: the name is empty");
+  expectFailure(runProgram({"report", kDemoScene, "-o", out, "--since", ""}), 2, "--since: the value is empty");
   fs::create_directories(folder.path() / "odd/clashes.csv");
   expectFailure(runProgram({"report", kDemoScene, "-o", out, "--since", folder.path() / "odd"}), 3,
                 "odd/clashes.csv: is a folder, not a file");

@@ -479,6 +479,7 @@ TEST(Report, SaysWhatIsWrong) {
   const std::string file = folder.write("file", "");
   expectFailure(runProgram({"report", kDemo, "-o", file + "/out"}), 3, "cannot create this folder");
   expectFailure(runProgram({"report", kDemo, "-o", file}), 3, "is a file; -o takes a folder");
+  expectFailure(runProgram({"report", kDemo, "-o", "/dev/null"}), 3, "/dev/null: is a file; -o takes a folder");
   expectFailure(runProgram({"report", kDemo}), 2, "no -o DIR given");
   expectFailure(runProgram({"report", kDemo, "-o", folder.path() / "o", "--metres-per-unit", "0"}), 2,
                 "must be above 0");
