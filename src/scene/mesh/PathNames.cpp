@@ -4,7 +4,10 @@
 #include <algorithm>
 #include <map>
 #include <string_view>
+#include <unordered_map>
 #include <utility>
+
+#include "input/UniqueNames.h"
 
 namespace allpairs::scene {
 namespace {
@@ -12,27 +15,10 @@ namespace {
 constexpr std::size_t kNowhere = NestedNode::kNoParent;
 constexpr std::size_t kMostLevels = 64;  // more than any assembly has; a chain of nodes may be as long as its file
 
-constexpr std::size_t kBytesPerItem = sizeof(NestedItem) + sizeof(PathName) + 200;  // with the nodes of maps
+constexpr std::size_t kBytesPerItem = sizeof(NestedItem) + sizeof(PathName) + 400;  // with the nodes of maps
 
-/// Numbers what has the same name in the same place: bolt, bolt#2; bolt#3 where another is called bolt#2.
-class Numbering {
- public:
-  /// Notes a name: of all that are to be numbered, before the first of them is.
-  void note(std::size_t place, std::string_view name) { m_counts.try_emplace({place, name}, 0); }
-
-  std::string labelOf(std::size_t place, std::string_view name) {
-    std::size_t& count = m_counts[{place, name}];
-    if (++count == 1) return std::string(name);
-    std::string label;
-    for (;; ++count) {
-      label = std::string(name) + '#' + std::to_string(count);
-      if (!m_counts.contains({place, label})) return label;
-    }
-  }
-
- private:
-  std::map<std::pair<std::size_t, std::string_view>, std::size_t> m_counts;
-};
+/// What has the same name in the same place is told apart: bolt, bolt#2; bolt#3 where another is called bolt#2.
+using NamesInPlaces = std::unordered_map<std::size_t, UniqueNames>;
 
 /// The nodes of a file that have names and items below them.
 class NamedNodes {
@@ -47,12 +33,12 @@ class NamedNodes {
     for (const NestedItem& item : items) {
       for (std::size_t at = nearest(item.node); at != kNowhere && !isUsed[at]; at = m_parents[at]) isUsed[at] = true;
     }
-    Numbering numbering;
+    NamesInPlaces taken;
     for (std::size_t i = 0; i < nodes.size(); ++i) {
-      if (isUsed[i]) numbering.note(m_parents[i], nodes[i].name);
+      if (isUsed[i]) taken[m_parents[i]].note(nodes[i].name);
     }
     for (std::size_t i = 0; i < nodes.size(); ++i) {
-      if (isUsed[i]) m_labels[i] = numbering.labelOf(m_parents[i], nodes[i].name);
+      if (isUsed[i]) m_labels[i] = taken[m_parents[i]].unique(nodes[i].name);
     }
   }
 
@@ -85,12 +71,12 @@ class PathNaming {
 
   std::vector<PathName> names() {
     std::vector<PathName> names;
-    Numbering numbering;
-    for (std::size_t i = 0; i < m_items.size(); ++i) numbering.note(m_places[i], m_items[i].name);
+    NamesInPlaces taken;
+    for (std::size_t i = 0; i < m_items.size(); ++i) taken[m_places[i]].note(m_items[i].name);
     for (std::size_t i = 0; i < m_items.size(); ++i) {
       PathName& name = names.emplace_back();
       name.name = join(i, m_levels[i], m_items[i].name);
-      const std::string label = numbering.labelOf(m_places[i], m_items[i].name);
+      const std::string label = taken[m_places[i]].unique(m_items[i].name);
       if (m_places[i] != kNowhere) name.path = join(i, kMostLevels, label);
     }
     return names;
