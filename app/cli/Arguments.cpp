@@ -12,6 +12,7 @@
 #include <optional>
 
 #include "cli/ExitStatus.h"
+#include "cli/Text.h"
 
 namespace allpairs::app {
 namespace {
@@ -20,10 +21,8 @@ std::optional<double> parseNumber(std::string_view text) {
   while (text.starts_with(' ')) text.remove_prefix(1);
   while (text.ends_with(' ')) text.remove_suffix(1);
   if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
-  double value = 0.0;
-  const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (problem != std::errc() || end != text.data() + text.size() || std::isnan(value)) return std::nullopt;
-  return value;
+  const auto value = numberOf<double>(text);
+  return value && !std::isnan(*value) ? value : std::nullopt;
 }
 
 std::string describeOrder(const Box& box) {
@@ -64,6 +63,13 @@ std::array<CLI::Option*, 4> addValues(CLI::App& command, const std::string& pref
 }
 
 }  // namespace
+
+std::string namesOf(const CLI::Option& option) {
+  std::string names = option.get_name(false, true);
+  for (std::size_t at = names.find(','); at != std::string::npos; at = names.find(',', at + 1))
+    names.insert(at + 1, " ");
+  return names;
+}
 
 std::vector<std::string> joinNumbers(int count, const char* const* arguments) {
   std::vector<std::string> joined;

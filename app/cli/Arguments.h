@@ -13,13 +13,17 @@
 
 namespace CLI {  // NOLINT(readability-identifier-naming): the library's name
 class App;
-}
+class Option;
+}  // namespace CLI
 
 namespace allpairs::app {
 
 /// The arguments as the parser needs them: an option that takes numbers is joined with its value, which may begin with
 /// a minus and would otherwise be taken for an option. What follows "--" are paths.
 [[nodiscard]] std::vector<std::string> joinNumbers(int count, const char* const* arguments);
+
+/// What an option may be called, since nothing says by which name it was given: "-n, --boxes".
+[[nodiscard]] std::string namesOf(const CLI::Option& option);
 
 /// The number that follows --distance.
 ///

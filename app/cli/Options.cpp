@@ -8,12 +8,12 @@
 #include <CLI/Error.hpp>
 #include <CLI/Formatter.hpp>
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <string_view>
 
 #include "allpairs/Error.h"
 #include "allpairs/scene/ReadOptions.h"
+#include "cli/Arguments.h"
 #include "cli/ExitStatus.h"
 #include "cli/Text.h"
 
@@ -28,14 +28,6 @@ std::string problemOfSofa(const std::string& text) {
     return problem.what();
   }
   return {};
-}
-
-/// What an option may be called, since nothing says by which name it was given: "-n, --boxes".
-std::string namesOf(const CLI::Option& option) {
-  std::string names = option.get_name(false, true);
-  for (std::size_t at = names.find(','); at != std::string::npos; at = names.find(',', at + 1))
-    names.insert(at + 1, " ");
-  return names;
 }
 
 }  // namespace
@@ -98,14 +90,10 @@ void addThreads(CLI::App& command, std::string& threads) {
 
 void takeCount(CLI::Option& option) {
   option.transform([&option](const std::string& text) {
-    const char* const last = text.data() + text.size();
-    std::uint64_t plain = 0;
-    if (const auto [end, problem] = std::from_chars(text.data(), last, plain); problem == std::errc() && end == last)
-      return text;
+    if (numberOf<std::uint64_t>(text)) return text;
     constexpr double kMost = 1e15;  // float64 holds every whole number up to it
-    double value = -1.0;
-    const auto [end, problem] = std::from_chars(text.data(), last, value);
-    if (problem != std::errc() || end != last || !(value >= 0.0) || std::floor(value) != value)
+    const double value = numberOf<double>(text).value_or(-1.0);
+    if (!(value >= 0.0) || std::floor(value) != value)
       throw UsageError(namesOf(option) + ": '" + text + "' is not a whole number from 0 on");
     if (value > kMost) throw UsageError(namesOf(option) + ": '" + text + "' is too large");
     return fmt::format("{:.0f}", value);
@@ -114,24 +102,10 @@ void takeCount(CLI::Option& option) {
 
 void takeNumber(CLI::Option& option, std::uint64_t least, std::uint64_t most) {
   option.check([least, most](const std::string& text) {
-    const char* const last = text.data() + text.size();
-    std::uint64_t value = 0;
-    const auto [end, problem] = std::from_chars(text.data(), last, value);
-    if (problem == std::errc() && end == last && value >= least && value <= most) return std::string();
+    const auto value = numberOf<std::uint64_t>(text);
+    if (value && *value >= least && *value <= most) return std::string();
     return fmt::format("'{}' is not a whole number from {} to {}", text, least, most);
   });
-}
-
-void refuseEmptyValues(CLI::App& program) {
-  for (CLI::App* command : program.get_subcommands({})) {
-    for (CLI::Option* option : command->get_options()) {
-      if (option->get_expected_max() == 0) continue;  // a flag
-      option->transform([option](const std::string& text) {
-        if (text.empty()) throw UsageError(namesOf(*option) + ": the value is empty");
-        return text;
-      });
-    }
-  }
 }
 
 void addStrategy(CLI::App& command, std::string& strategy) {

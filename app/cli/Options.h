@@ -60,10 +60,6 @@ void takeCount(CLI::Option& option);
 /// Lets an option take whole numbers in this range only.
 void takeNumber(CLI::Option& option, std::uint64_t least, std::uint64_t most);
 
-/// Lets nothing that the program's commands take be "", as where a variable of a script has no value: an option would be
-/// as if it was not given.
-void refuseEmptyValues(CLI::App& program);
-
 /// Declares --strategy WORD, whose value strategyOf() takes.
 void addStrategy(CLI::App& command, std::string& strategy);
 

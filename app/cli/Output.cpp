@@ -6,7 +6,6 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <charconv>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -16,6 +15,7 @@
 #include "cli/ExitStatus.h"
 #include "cli/SignalCleanup.h"
 #include "cli/TargetFile.h"
+#include "cli/Text.h"
 
 namespace allpairs::app {
 namespace {
@@ -29,11 +29,8 @@ std::optional<int> ownDescriptor(const fs::path& path) {
   if (path == "/dev/stdout") return STDOUT_FILENO;
   if (path == "/dev/stderr") return STDERR_FILENO;
   if (path.parent_path() != "/dev/fd" && path.parent_path() != "/proc/self/fd") return std::nullopt;
-  const std::string digits = path.filename().string();
-  int descriptor = -1;
-  const auto [end, problem] = std::from_chars(digits.data(), digits.data() + digits.size(), descriptor);
-  if (problem != std::errc() || end != digits.data() + digits.size() || descriptor < 0) return std::nullopt;
-  return descriptor;
+  const auto descriptor = numberOf<int>(path.filename().string());
+  return descriptor && *descriptor >= 0 ? descriptor : std::nullopt;
 }
 
 /// Where a temporary name begins: with that of the file, unless what follows would make it too long.

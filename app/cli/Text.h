@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <charconv>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <system_error>
 
 #include "allpairs/Box.h"
 
@@ -32,6 +35,15 @@ namespace allpairs::app {
 
 /// A box as [0, 0, 0] to [1, 1, 1], short enough to read.
 [[nodiscard]] std::string boxText(const Box& box);
+
+/// The number that is all of the text, in the form of std::from_chars; none where it is too large, too.
+template <class Number>
+[[nodiscard]] std::optional<Number> numberOf(std::string_view text) {
+  Number value = 0;
+  const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (problem != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
 
 /// The end of a file's name from its last dot, in lower case; empty where there is none.
 [[nodiscard]] std::string lowerExtension(const std::string& path);

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cstddef>
 #include <iterator>
 #include <system_error>
@@ -41,11 +40,8 @@ std::size_t modelOf(const scene::Scene& scene, const std::string& text) {
                                  named.size(), text, fmt::join(named.begin(), listed, ", "),
                                  listed == named.end() ? "" : ", ...", named.front()));
   }
-  std::size_t number = 0;
-  const char* const begin = text.data() + (text.starts_with('#') ? 1 : 0);
-  const auto [end, problem] = std::from_chars(begin, text.data() + text.size(), number);
-  const bool isNumber = problem == std::errc() && end == text.data() + text.size();
-  if (isNumber && number < scene.models.size()) return number;
+  const auto number = numberOf<std::size_t>(std::string_view(text).substr(text.starts_with('#') ? 1 : 0));
+  if (number && *number < scene.models.size()) return *number;
   throw UsageError(fmt::format("--why: of {}, none has the name or the number '{}'; 'allpairs info' lists them",
                                counted(scene.models.size(), "model"), text));
 }

@@ -26,6 +26,7 @@
 #include "allpairs/scene/TargetFile.h"
 #include "cli/Arguments.h"
 #include "cli/ExitStatus.h"
+#include "cli/ParseArguments.h"
 #include "cli/Text.h"
 #include "cli/Warning.h"
 #include "mpi/BoxShare.h"
@@ -203,19 +204,6 @@ void checkSame(const std::vector<std::string>& arguments) {
   }
 }
 
-void parse(CLI::App& program, const std::vector<std::string>& given) {
-  try {
-    program.parse(std::vector<std::string>(given.rbegin(), given.rend()));
-  } catch (const CLI::CallForHelp&) {
-    const auto chosen = program.get_subcommands();
-    print(chosen.empty() ? program.help() : chosen.front()->help());
-  } catch (const CLI::CallForVersion& version) {
-    print(std::string(version.what()) + '\n');
-  } catch (const CLI::ParseError& problem) {
-    throw UsageError(problem.what());
-  }
-}
-
 void run(int count, char** arguments) {
   CLI::App program("Finds the overlapping boxes of more boxes than one machine holds, on the ranks of MPI.",
                    "allpairs-mpi");
@@ -233,7 +221,7 @@ void run(int count, char** arguments) {
   join->callback([&settings] { Join(settings).run(); });
   const std::vector<std::string> given = allpairs::app::joinNumbers(count, arguments);
   checkSame(given);
-  parse(program, given);
+  allpairs::app::parseArguments(program, given, print);
 }
 
 ExitStatus runWithStatus(int count, char** arguments) {

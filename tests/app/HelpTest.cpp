@@ -73,6 +73,7 @@ TEST(Help, OfACommandIsItsOwn) {
   }
   EXPECT_EQ(runProgram({"help"}).out, runProgram({"--help"}).out);
   expectFailure(runProgram({"help", "find"}), kWrongUsage, "unknown command 'find'");
+  expectFailure(runProgram({"help", "detect", "join"}), kWrongUsage, "one argument too many: 'join'");
 }
 
 TEST(Help, IsWhatAProgramWithoutArgumentsPrints) {

@@ -265,6 +265,9 @@ def test_values_that_are_wrong_are_named(tmp_path):
     refused("gone.npy", *other, "--with-margins", tmp_path / "gone.npy")
     refused("--with-margins requires --with", "--with-margins", tmp_path / "nan.npy", status=2)
     refused("--box: '1,2,3'", "--box", "1,2,3", status=2)
+    refused("-o, --output: the value is empty", "-o", "", status=2)
+    refused("--distance: D is missing", "--distance", status=2)
+    refused("unknown option '--masc' - did you mean --masks?", "--masc", status=2)
     masks = ("--masks", tmp_path / "far.npy", tmp_path / "a.npy", tmp_path / "a.npy")
     assert "BOXES come before --masks, which" in mpirun(ranks, "join", "--count", *masks, status=2).stderr
 

@@ -20,7 +20,7 @@ std::uint32_t readHeaderLength(InputFile& file, const Path& path) {
   if (file.remaining() < start.size()) throw FileError(path, "is too short for a .npy file");
   file.read(start.data(), start.size());
   if (std::memcmp(start.data(), kNpyMagic.data(), kNpyMagic.size()) != 0)
-    throw FileError(path, "is not a .npy file: its magic is missing");
+    throw FileError(path, "is not a .npy file, as numpy.save() writes it");
   const int version = start[6];
   if (version < 1 || version > 3) {
     throw FileError(path, "is of .npy version " + std::to_string(version) + "; versions 1 to 3 are known");
