@@ -44,7 +44,8 @@ function(allpairs_components_of part library_variable development_variable)
 endfunction()
 
 # What comes after in a folder of a preset that checks is hardly optimised, if at all: GCC takes two thirds of the time,
-# Clang with AddressSanitizer one third. For tests and commands, whose own code is seldom what takes long.
+# Clang with AddressSanitizer one third. For tests, commands, readers and Python, whose own code is seldom what
+# takes long.
 macro(allpairs_compile_quickly)
   set(allpairs_quick -Og)
   if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
@@ -159,9 +160,21 @@ function(allpairs_configure_c target)
 endfunction()
 
 # Adds a GoogleTest program from the given sources; each TEST is a test of its own for ctest. With AS_CXX17 it is compiled as
-# that, and the names of its tests begin so.
+# that, and the names of its tests begin so. Of the sources behind ONE_THREAD no test begins a thread, nor does a program
+# that it runs: they tell ThreadSanitizer nothing, and are left out there. Without other sources there is no program then.
 function(allpairs_add_test target)
-  cmake_parse_arguments(PARSE_ARGV 1 ARG "AS_CXX17" "" "SOURCES;LIBRARIES")
+  cmake_parse_arguments(PARSE_ARGV 1 ARG "AS_CXX17" "" "SOURCES;ONE_THREAD;LIBRARIES")
+  foreach(source IN LISTS ARG_ONE_THREAD)
+    file(STRINGS ${source} threads REGEX "std::(j?thread|async)|pthread_create|TbbExecutor|PoolExecutor|ChangingExecutor")
+    if(threads)
+      message(FATAL_ERROR "${CMAKE_CURRENT_SOURCE_DIR}/${source} stands behind ONE_THREAD, and begins threads: ${threads}")
+    endif()
+  endforeach()
+  if(NOT CMAKE_CXX_FLAGS MATCHES "-fsanitize=thread")
+    list(APPEND ARG_SOURCES ${ARG_ONE_THREAD})
+  elseif(NOT ARG_SOURCES)
+    return()
+  endif()
   add_executable(${target} ${ARG_SOURCES})
   set(standard)
   set(prefix)

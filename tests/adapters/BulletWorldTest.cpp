@@ -12,7 +12,6 @@
 #include "BulletBody.h"
 #include "BulletPairs.h"
 #include "allpairs/bullet/BulletBroadphase.h"
-#include "allpairs/parallel/TbbExecutor.h"
 
 namespace allpairs::test {
 namespace {
@@ -226,19 +225,6 @@ TEST(BulletWorld, AGhostKnowsTheBodiesThatFallThroughIt) {
   EXPECT_GT(most, 4 + 8);  // the walls, and some of those that fall
   scene.world().removeCollisionObject(&ghost);
   EXPECT_EQ(ghost.getNumOverlappingObjects(), 0);
-}
-
-TEST(BulletWorld, ThreadsDoNotChangeASimulation) {
-  std::vector<btScalar> ends;
-  parallel::TbbExecutor executor(3);
-  for (Executor* chosen : {static_cast<Executor*>(nullptr), static_cast<Executor*>(&executor)}) {
-    BulletBroadphase broadphase({.executor = chosen});
-    FallingBodies scene(broadphase, 5, 6);
-    for (int step = 0; step < 200; ++step) scene.step();
-    for (const auto& body : scene.bodies()) ends.push_back(body->getWorldTransform().getOrigin().y());
-  }
-  const auto middle = ends.begin() + static_cast<std::ptrdiff_t>(ends.size() / 2);
-  EXPECT_TRUE(std::equal(ends.begin(), middle, middle, ends.end()));
 }
 
 TEST(BulletWorld, BodiesMayLeaveAndComeBackBetweenSteps) {

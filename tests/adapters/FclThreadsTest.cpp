@@ -20,17 +20,17 @@
 namespace allpairs::test {
 namespace {
 
-using Object = ::fcl::CollisionObjectd;
-using Manager = ::fcl::BroadPhaseCollisionManagerd;
-using Pairs = std::vector<std::pair<Object*, Object*>>;
+using ObjectD = ::fcl::CollisionObjectd;
+using AnyManager = ::fcl::BroadPhaseCollisionManagerd;
+using ObjectPairs = std::vector<std::pair<ObjectD*, ObjectD*>>;
 
 /// The naive manager gives all pairs.
-bool collect(Object* a, Object* b, void* pairs) {
-  if (a->getAABB().overlap(b->getAABB())) static_cast<Pairs*>(pairs)->push_back(std::minmax(a, b));
+bool collect(ObjectD* a, ObjectD* b, void* pairs) {
+  if (a->getAABB().overlap(b->getAABB())) static_cast<ObjectPairs*>(pairs)->push_back(std::minmax(a, b));
   return false;
 }
 
-bool measure(Object* a, Object* b, void* known, double& least) {
+bool measure(ObjectD* a, ObjectD* b, void* known, double& least) {
   auto& distance = *static_cast<double*>(known);
   distance = std::min(distance, a->getAABB().distance(b->getAABB()));
   least = distance;
@@ -39,10 +39,10 @@ bool measure(Object* a, Object* b, void* known, double& least) {
 
 /// All answers of a manager that a thread may ask it for.
 struct Answers {
-  std::vector<Pairs> ofProbes;
+  std::vector<ObjectPairs> ofProbes;
   std::vector<double> distances;
-  Pairs ofItself;
-  Pairs ofOther;
+  ObjectPairs ofItself;
+  ObjectPairs ofOther;
   double least = std::numeric_limits<double>::max();
   std::size_t size = 0;
   std::size_t listed = 0;
@@ -50,13 +50,13 @@ struct Answers {
   friend bool operator==(const Answers&, const Answers&) = default;
 };
 
-Pairs sorted(Pairs pairs) {
+ObjectPairs sorted(ObjectPairs pairs) {
   std::sort(pairs.begin(), pairs.end());
   return pairs;
 }
 
 /// Asks a manager everything, beginning with another question for each `turn`.
-Answers ask(const Manager& manager, Manager& other, const std::vector<Object*>& probes, std::size_t turn) {
+Answers ask(const AnyManager& manager, AnyManager& other, const std::vector<ObjectD*>& probes, std::size_t turn) {
   Answers answers;
   answers.ofProbes.resize(probes.size());
   answers.distances.assign(probes.size(), std::numeric_limits<double>::max());
@@ -82,7 +82,7 @@ Answers ask(const Manager& manager, Manager& other, const std::vector<Object*>& 
       default:
         manager.distance(&answers.least, measure);
         answers.size = manager.empty() ? 0 : manager.size();
-        std::vector<Object*> objects;
+        std::vector<ObjectD*> objects;
         manager.getObjects(objects);
         answers.listed = objects.size();
     }
@@ -95,7 +95,7 @@ class Spheres {
  public:
   explicit Spheres(std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) {
-      m_owned.push_back(std::make_unique<Object>(m_sphere));
+      m_owned.push_back(std::make_unique<ObjectD>(m_sphere));
       m_objects.push_back(m_owned.back().get());
     }
     move(1);
@@ -110,13 +110,13 @@ class Spheres {
     }
   }
 
-  [[nodiscard]] const std::vector<Object*>& objects() const { return m_objects; }
+  [[nodiscard]] const std::vector<ObjectD*>& objects() const { return m_objects; }
 
  private:
   std::mt19937 m_random{3};
   std::shared_ptr<::fcl::Sphered> m_sphere = std::make_shared<::fcl::Sphered>(0.5);
-  std::vector<std::unique_ptr<Object>> m_owned;
-  std::vector<Object*> m_objects;
+  std::vector<std::unique_ptr<ObjectD>> m_owned;
+  std::vector<ObjectD*> m_objects;
 };
 
 class FclThreads : public ::testing::TestWithParam<std::size_t> {};

@@ -34,8 +34,8 @@ nlohmann::json benchJson(std::vector<std::string> arguments) {
 }
 
 TEST(Bench, GivesTheDoubleLoopsHashWhateverTheStrategyOrderAndThreads) {
-  const std::string expected = hashOfDoubleLoop(generate::makeBoxes({.scene = "clusters", .count = 600}));
-  const std::vector<std::string> scene{"clusters", "-n", "600"};
+  const std::string expected = hashOfDoubleLoop(generate::makeBoxes({.scene = "clusters", .count = 3000}));
+  const std::vector<std::string> scene{"clusters", "-n", "3000"};  // as many as threads share
   for (const std::vector<std::string>& options : std::vector<std::vector<std::string>>{
            {}, {"--unordered"}, {"--threads", "3"}, {"--strategy", "exhaustive"}, {"--strategy", "bvh"}}) {
     std::vector<std::string> arguments = scene;

@@ -159,7 +159,7 @@ static bool searchWorlds(void* context, uint32_t first, uint32_t second) {
   worlds.struct_size = sizeof worlds;
   worlds.boxes = caller->boxes;
   worlds.count = 2;
-  for (int i = 0; i < 20; ++i) {
+  for (int i = 0; i < 3; ++i) {
     ALLPAIRS_CHECK(allpairs_find_in_worlds(caller->search, &worlds, &found) == ALLPAIRS_INVALID_ARGUMENT);
     ALLPAIRS_CHECK(allpairs_find(caller->search, caller->boxes, &pairs) == ALLPAIRS_INVALID_ARGUMENT);
   }
