@@ -14,6 +14,7 @@
 #include "allpairs/World.h"
 #include "allpairs/Worlds.h"
 #include "support/Boxes.h"
+#include "support/Sanitizers.h"
 
 namespace allpairs {
 namespace {
@@ -60,10 +61,13 @@ std::size_t stopAtEachTask(StoppingExecutor& executor, const std::function<void(
   }
 }
 
+/// A sanitizer makes a search that tests every pair last for minutes.
+bool isSlow(Strategy strategy) { return test::kIsSanitized && strategy == Strategy::Exhaustive; }
+
 TEST(Stop, AtAnyTaskLeavesASearchThatCanBeUsedOn) {
   for (const Order order : {Order::ByFirst, Order::BySecond, Order::Unordered}) {
     for (const Strategy strategy : {Strategy::Bvh, Strategy::Exhaustive}) {
-      const std::vector<BoxF> boxes = test::randomBoxes(strategy == Strategy::Bvh ? 3000 : 1500, 91);
+      const std::vector<BoxF> boxes = test::randomBoxes(isSlow(strategy) ? 1500 : 3000, 91);
       StoppingExecutor executor(3);
       OverlapOptions options;
       options.order = order;
@@ -126,7 +130,7 @@ TEST(Stop, AFlagThatIsNotSetChangesNothing) {
   const StopFlag stop;
   for (const Order order : {Order::ByFirst, Order::BySecond, Order::Unordered}) {
     for (const Strategy strategy : {Strategy::Bvh, Strategy::Exhaustive}) {
-      const std::vector<BoxF> boxes = test::randomBoxes(strategy == Strategy::Bvh ? 20000 : 5000, 92);
+      const std::vector<BoxF> boxes = test::randomBoxes(isSlow(strategy) ? 5000 : 20000, 92);
       OverlapOptions options;
       options.order = order;
       options.strategy = strategy;
