@@ -21,20 +21,20 @@ constexpr std::size_t kDenseCell = 64;
 /// The maximum nesting of grids: each makes cells some hundred times narrower.
 constexpr unsigned kMostGrids = 4;
 
-std::uint64_t keyOf(CurveKey box) { return box >> kIndexBits; }
+std::uint64_t cellOf(CurveKey box) { return box >> kIndexBits; }
 
-/// Calls take(boxes) for runs of about kDenseCell or more boxes with the same key, of sorted boxes.
+/// Calls take(boxes) for runs of about kDenseCell or more boxes in the same cell, of sorted boxes.
 template <class Take>
 void forEachDenseCell(std::span<CurveKey> boxes, Take&& take) {
   for (std::size_t i = 0; i + kDenseCell <= boxes.size();) {
-    const std::uint64_t key = keyOf(boxes[i]);
-    if (keyOf(boxes[i + kDenseCell - 1]) != key) {
+    const std::uint64_t cell = cellOf(boxes[i]);
+    if (cellOf(boxes[i + kDenseCell - 1]) != cell) {
       i += kDenseCell / 2;
       continue;
     }
     std::size_t begin = i;
-    while (begin > 0 && keyOf(boxes[begin - 1]) == key) --begin;
-    const auto isSame = [&](CurveKey box) { return keyOf(box) == key; };
+    while (begin > 0 && cellOf(boxes[begin - 1]) == cell) --begin;
+    const auto isSame = [&](CurveKey box) { return cellOf(box) == cell; };
     const auto rest = boxes.subspan(i);
     const auto end = static_cast<std::size_t>(std::partition_point(rest.begin(), rest.end(), isSame) - boxes.begin());
     take(boxes.subspan(begin, end - begin));
@@ -81,7 +81,7 @@ void HilbertSort::sortDenseCell(std::span<CurveKey> cell, CurveKey* spare, const
   }
   const CurveKey* sorted = radixSort(spare, cell.data(), cell.size(), kIndexBits, run.usedBits());
   if (sorted != cell.data()) std::copy_n(sorted, cell.size(), cell.data());
-  if (grids == kMostGrids || keyOf(cell.front()) == keyOf(cell.back())) return;
+  if (grids == kMostGrids || cellOf(cell.front()) == cellOf(cell.back())) return;
   CurveKey* const begin = cell.data();
   forEachDenseCell(cell, [&](std::span<CurveKey> inner) {
     sortDenseCell(inner, spare + (inner.data() - begin), reader, grids + 1);

@@ -4,7 +4,14 @@
 
 // Vectors whose length the compiler doesn't know cannot be members of a struct, which the kernels rely on; on
 // processors with SVE the kernels for NEON run.
-#define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
+#define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV | ALLPAIRS_UNWATCHED_TARGETS)
+#ifndef ALLPAIRS_UNWATCHED_TARGETS  // those that a build with a sanitizer leaves out (src/engine/CMakeLists.txt)
+#define ALLPAIRS_UNWATCHED_TARGETS 0
+#endif
+
+// Where the processor has no vectors, Highway would emulate them, with some compilers: the scalar kernels are faster
+// (docs/decisions/0036).
+#define HWY_BROKEN_EMU128 1
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "kernels/Kernels.cpp"

@@ -8,7 +8,7 @@
 namespace allpairs::engine {
 namespace {
 
-std::uint64_t keyOf(std::uint32_t number, bool isStatic) { return 2 * std::uint64_t{number} + (isStatic ? 1 : 0); }
+std::uint64_t treeKeyOf(std::uint32_t number, bool isStatic) { return 2 * std::uint64_t{number} + (isStatic ? 1 : 0); }
 
 }  // namespace
 
@@ -84,7 +84,7 @@ void WorldForest::follow(const BoxStore& store, const WorldMembers& members) {
     for (const BoxId id : store.resettled()) {
       BoxHome& home = m_homes[id];
       if (home.tree == BoxHome::kNowhere) continue;
-      if (store.contains(id) && m_keys[home.tree] == keyOf(store.worldOf(id), store.isStatic(id))) continue;
+      if (store.contains(id) && m_keys[home.tree] == treeKeyOf(store.worldOf(id), store.isStatic(id))) continue;
       m_trees[home.tree].remove(home.place);
       markDirty(home.tree);
       home = BoxHome();
@@ -116,7 +116,7 @@ void WorldForest::enter(BoxId id, const BoxStore& store, const WorldMembers& mem
   std::uint32_t& tree = m_treeOf[2 * members.worldOf(id) + (isStatic ? 1 : 0)];
   if (tree == BoxHome::kNowhere) {
     tree = takeUnused();
-    m_keys[tree] = keyOf(store.worldOf(id), isStatic);
+    m_keys[tree] = treeKeyOf(store.worldOf(id), isStatic);
   }
   m_homes[id].tree = tree;
   m_trees[tree].add(id);
