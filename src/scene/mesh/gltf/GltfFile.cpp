@@ -19,6 +19,9 @@
 namespace allpairs::scene {
 namespace {
 
+/// So far numbers of float32 may be from what is meant by them; they are taken as they are.
+constexpr double kFloat32Rounding = 1e-6;
+
 enum class Mode : std::uint8_t { Points, Lines, LineLoop, LineStrip, Triangles, TriangleStrip, TriangleFan };
 
 /// The rotation by a quaternion x y z w.
@@ -146,20 +149,18 @@ class GltfNodeReader {
 
   Transform transformOf(const GltfItem& node) const {
     if (const std::vector<double> m = m_document.numbers(node, "matrix", 16); !m.empty()) {  // column by column
-      constexpr double kRounding = 1e-6;
-      const auto isNear = [](double value, double wanted) { return std::abs(value - wanted) <= kRounding; };
+      const auto isNear = [](double value, double wanted) { return std::abs(value - wanted) <= kFloat32Rounding; };
       if (!isNear(m[3], 0.0) || !isNear(m[7], 0.0) || !isNear(m[11], 0.0) || !isNear(m[15], 1.0))
         m_document.fail(node.name + " has a matrix whose last row is not 0 0 0 1");
       return {{{m[0], m[4], m[8], m[12]}, {m[1], m[5], m[9], m[13]}, {m[2], m[6], m[10], m[14]}}};
     }
     Transform result = kIdentity;
     if (auto q = m_document.numbers(node, "rotation", 4); !q.empty()) {
-      constexpr double kMost = 0.00769;   // the glTF-Validator's: quaternions in 8 bits are so far from length 1
-      constexpr double kRounding = 1e-6;  // of those in float32, which are taken as they are
+      constexpr double kMost = 0.00769;  // the glTF-Validator's: quaternions in 8 bits are so far from length 1
       const double length = std::sqrt(std::inner_product(q.begin(), q.end(), q.begin(), 0.0));
       if (!(std::abs(length - 1.0) <= kMost))
         m_document.fail(node.name + " has a rotation that is no quaternion of length 1");
-      if (std::abs(length - 1.0) > kRounding)
+      if (std::abs(length - 1.0) > kFloat32Rounding)
         for (double& number : q) number /= length;
       result = rotation(q);
     }
