@@ -19,7 +19,7 @@ cmake -S . -B "$WORK/build" -G Ninja \
 cmake --build "$WORK/build"
 
 mkdir -p "$OUT/lib"
-for program in "$WORK"/build/bin/fuzz_*; do
+for program in "$WORK"/build/fuzzers/fuzz_*; do
   target=${program##*/fuzz_}
   cp "$program" "$OUT/"
   ldd "$program" | awk '$3 ~ "^/" { print $3 }' |

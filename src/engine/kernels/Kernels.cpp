@@ -9,8 +9,9 @@
 #define ALLPAIRS_UNWATCHED_TARGETS 0
 #endif
 
-// Where the processor has no vectors, Highway would emulate them, with some compilers: the scalar kernels are faster
+// Where Highway has no vectors for a processor, it would emulate them, with some compilers: the scalar kernels are faster
 // (docs/decisions/0036).
+#undef HWY_BROKEN_EMU128
 #define HWY_BROKEN_EMU128 1
 
 #undef HWY_TARGET_INCLUDE
