@@ -124,10 +124,10 @@ TEST_P(Stream, HoldsAnExplosionOfPairsInRanges) {
 }
 
 TEST(OrderedStream, HoldsABoxWithMorePairsThanARange) {
-  constexpr std::uint32_t kMany = (1U << 22) + 1;  // a range has one less
+  constexpr std::uint32_t kMoreThanARange = (1U << 22) + 1;  // a range has one less
   const Box one = test::cube(0, 0, 0);
-  const BoxView many =
-      BoxView::fromStrided(kMany, CornerView<double>{one.min.data(), 0, 1}, CornerView<double>{one.max.data(), 0, 1});
+  const BoxView many = BoxView::fromStrided(kMoreThanARange, CornerView<double>{one.min.data(), 0, 1},
+                                            CornerView<double>{one.max.data(), 0, 1});
   const std::vector<Box> few{test::cube(5, 0, 0), test::cube(0.5, 0, 0), test::cube(5, 0, 0)};
   for (const Order order : {Order::ByFirst, Order::BySecond}) {
     const bool bySecond = order == Order::BySecond;
@@ -141,7 +141,7 @@ TEST(OrderedStream, HoldsABoxWithMorePairsThanARange) {
     };
     bySecond ? streamOverlaps(many, few, look, options) : streamOverlaps(few, many, look, options);
     EXPECT_TRUE(isRight) << bySecond;
-    EXPECT_EQ(next, kMany) << bySecond;
+    EXPECT_EQ(next, kMoreThanARange) << bySecond;
   }
 }
 
