@@ -101,9 +101,6 @@ HWY_INLINE void crossJoin(const Leaf& leaf, const BvhView& other, std::span<cons
   }
 }
 
-/// How many partners ahead their blocks are prefetched (allpairs bench uniform -n 1000000).
-constexpr std::size_t kPrefetchDistance = 4;
-
 HWY_INLINE void prefetchBlock(const LaneBlock& block) {
   for (const auto& row : block.bound) prefetchLine(row.data());
 }

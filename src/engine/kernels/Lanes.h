@@ -30,6 +30,10 @@ void forEachBit(std::span<const std::uint64_t> words, const Use& use) {
 /// Kernels load and store whole vectors: so many values after the end of an array may be read, or written and ignored.
 inline constexpr std::size_t kVectorSlack = 64;
 
+/// What lies in no order, such as the blocks and the lists of a box's partners and the boxes of pairs in doubt, is
+/// prefetched so many ahead (dense_benchmark; allpairs bench uniform -n 1000000).
+inline constexpr std::size_t kPrefetchDistance = 8;
+
 /// Rows that kernels test at once: they share the loads of the columns, and a branch.
 inline constexpr std::size_t kRowsAtOnce = 4;
 

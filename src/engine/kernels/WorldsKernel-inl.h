@@ -205,7 +205,7 @@ template <bool kPreceding, std::size_t kUnasked>
 HWY_INLINE std::size_t writeBits(std::uint64_t bits, std::uint32_t box, std::uint32_t firstOfWord, Pair* pairs) {
   // Of the others: where there are many, a tenth of the time of all (few_benchmark).
   constexpr std::size_t kAtOnce = 4;
-  static_assert(std::max(kUnasked, kAtOnce) <= WorldSink::kSlack);
+  static_assert(std::max(kUnasked, kAtOnce) <= kVectorSlack);
   const auto count = static_cast<std::size_t>(std::popcount(bits));
   writeLowest<kPreceding, kUnasked>(bits, box, firstOfWord, pairs);
   for (std::size_t i = kUnasked; i < count; i += kAtOnce) {

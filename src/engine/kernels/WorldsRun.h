@@ -40,16 +40,14 @@ using WorldTile = std::array<std::array<T, kMostInWorld>, 6>;
 
 /// What becomes of the hits of worlds: which of them are pairs, and where these go, one world's after the other's.
 struct WorldSink {
-  /// Pairs that may be written past the last one: kernels write the first few of a word whether they are there or not.
-  static constexpr std::size_t kSlack = 8;
-
   /// All pairs of so many boxes.
   [[nodiscard]] static constexpr std::size_t pairsOf(std::size_t boxes) noexcept {
     return boxes * (boxes - (boxes == 0 ? 0 : 1)) / 2;
   }
 
-  /// The pairs that there must be room for to search a world.
-  [[nodiscard]] static std::size_t roomFor(std::size_t boxes) noexcept { return pairsOf(boxes) + kSlack; }
+  /// The pairs that there must be room for to search a world: kernels write the first few of a word whether they are
+  /// there or not.
+  [[nodiscard]] static std::size_t roomFor(std::size_t boxes) noexcept { return pairsOf(boxes) + kVectorSlack; }
 
   Pair* pairs = nullptr;
   std::size_t capacity = 0;  ///< With the slack.

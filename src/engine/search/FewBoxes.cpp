@@ -23,11 +23,11 @@ namespace {
 /// (docs/decisions/0009, few_benchmark).
 constexpr std::size_t kTestedPairs = 24;
 
-/// Hits that are buffered: more than those of one box, and so few that the stack has room for them.
-constexpr std::size_t kHits = 2 * LaneTile::kCapacity;
+/// Room for the hits that are buffered, more than those of one box and so few that they fit on the stack, and for what a
+/// vector writes behind them.
+constexpr std::size_t kHitStride = 2 * LaneTile::kCapacity + kVectorSlack;
 
 /// What a sink of them allocates: three arrays of hits, and the pairs.
-constexpr std::size_t kHitStride = kHits + kVectorSlack;
 constexpr std::size_t kSinkBytes =
     sizeof(std::uint32_t) * (SinkOptions::kHitOffset + 3 * kHitStride) + sizeof(Pair) * kHitStride;
 
@@ -120,7 +120,7 @@ OverlapStatistics findInTiles(const Sets& sets, const OverlapOptions& options, O
     return pairs.size();
   };
   SinkOptions sinkOptions{test, &kernels, order == Order::BySecond ? PairSide::RowSecond : PairSide::RowFirst};
-  sinkOptions.hitCapacity = kHits;
+  sinkOptions.hitCapacity = kHitStride - kVectorSlack;
   sinkOptions.hitStride = kHitStride;
   sinkOptions.maxPairs = options.maxPairs;
   sinkOptions.stop = options.stop;

@@ -18,10 +18,6 @@
 
 namespace allpairs::engine {
 
-/// What lies in no order, such as the boxes of pairs in doubt and the lists of boxes in the order of a hierarchy, is
-/// prefetched so many ahead (dense_benchmark).
-inline constexpr std::size_t kPrefetchDistance = 8;
-
 /// Whether each side accepts the other's category.
 [[nodiscard]] inline bool acceptEachOther(std::uint32_t categoryA, std::uint32_t maskA, std::uint32_t categoryB,
                                           std::uint32_t maskB) noexcept {

@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "input/Parts.h"
+#include "kernels/Lanes.h"
 #include "memory/Platform.h"
 #include "search/CallExecutor.h"
-#include "search/PairTest.h"
 
 namespace allpairs::engine {
 namespace {
