@@ -182,6 +182,9 @@ void ElementCandidates::State::streamIn(Order order, CandidateKind kind, PairVis
 
 ElementCandidates::ElementCandidates(MeshTopology topology, CandidateOptions options)
     : m_state(std::make_unique<State>(std::move(topology), options)) {
+  OverlapOptions checked = m_state->engineOptions(options.order);
+  checked.stop = nullptr;  // set or not, it is for searches
+  m_state->search.setOptions(std::move(checked));
   static_cast<void>(m_state->search.count(BoxView()));  // refuses a distance that makes no sense, wanted or not
 }
 ElementCandidates::~ElementCandidates() = default;

@@ -257,6 +257,16 @@ TEST(ElementCandidates, OfNoKindAreRefused) {
   EXPECT_EQ(candidates.find(CandidateKind::FaceFace).size(), 1U);
 }
 
+TEST(ElementCandidates, AreMadeWhileTheirSearchesAreStopped) {
+  StopFlag stop;
+  stop.set();
+  ElementCandidates candidates = candidatesOf({kTriangle, kTriangle}, {.stop = &stop});
+  EXPECT_THROW(static_cast<void>(candidates.find(CandidateKind::FaceFace)), Stopped);
+  EXPECT_THROW(static_cast<void>(candidates.count(CandidateKind::EdgeEdge)), Stopped);
+  stop.clear();
+  EXPECT_EQ(candidates.find(CandidateKind::FaceFace).size(), 1U);
+}
+
 TEST(ElementCandidates, TakeOfMemoryOfTheCallersWhatTheyUse) {
   MovingMesh apart;
   for (std::uint32_t i = 0; i < 3000; ++i) {
