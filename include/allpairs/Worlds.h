@@ -102,10 +102,9 @@ struct WorldPairsView {
 /// pairs take a search without `shared`. The hierarchy of the shared boxes is built once for all worlds.
 ///
 /// Options:   all apply, as to a search of each world alone, with boxes numbered within their world: `accept` does not
-/// learn
-///            which world a pair is of. maxPairs limits the pairs of all worlds together. The spans of filter.first are
-///            empty, or have a value for each box of all worlds, or, if worlds are of equal size, for each box of one
-///            world: then it holds for all. Order::Unordered with shared boxes gives Order::ByFirst.
+///            learn which world a pair is of. maxPairs limits the pairs of all worlds together. The spans of
+///            filter.first are empty, or have a value for each box of all worlds, or, if worlds are of equal size, for
+///            each box of one world: then it holds for all. Order::Unordered with shared boxes gives Order::ByFirst.
 /// Bad input: as for OverlapSearch.
 /// Cost:      in worlds of up to a few hundred boxes all pairs are tested, n(n-1)/2 a world; larger ones are searched
 ///            as OverlapSearch does. 8 bytes a pair and a world. On the calling thread a second search of the same size

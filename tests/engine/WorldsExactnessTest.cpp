@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Worlds of few boxes that are apart by just the distance and their margins, or by a hair more: the sum depends on the
 // order in which it is added, which is that of their ids whatever the order of the pairs.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,6 +20,8 @@
 
 namespace allpairs {
 namespace {
+
+using ::testing::ElementsAreArray;
 
 /// Box i and the i-th from the end lie beside each other, those of other numbers elsewhere.
 struct ApartBySums {
@@ -69,6 +72,65 @@ TEST_P(WorldsApart, BySumsOfMarginsAreComparedInTheOrderOfIds) {
       view.setMargins(scene.margins);
       ASSERT_NO_FATAL_FAILURE(expectPairs(view, distance, test::oracle(scene.boxes, distance, scene.margins)));
       ASSERT_NO_FATAL_FAILURE(expectPairs(BoxView(scene.boxes), distance, test::oracle(scene.boxes, distance)));
+    }
+  }
+}
+
+/// Worlds on a grid of so small a size, or so large, that float32 has no such numbers, or has one for several of them:
+/// bounds are those of the grid, or the next number below or above it, and so are those of empty boxes.
+struct HairsApart {
+  std::vector<Box> boxes;
+  std::vector<std::uint64_t> begin{0};
+
+  explicit HairsApart(unsigned seed) {
+    std::mt19937 generator(seed);
+    for (std::size_t world = 0; world < 96; ++world) {
+      static constexpr double kScales[] = {1.0, 0.1, 1e300, 3e38, 1e-40, 1e-46, 1e-310};
+      static constexpr std::size_t kSizes[] = {1, 2, 5, 20, 33, 64, 65, 130, 190, 250};
+      const double scale = kScales[world / 3 % std::size(kScales)];
+      const bool isOnGrid = world % 40 < 20;  // Long rows of worlds with hairs, and without.
+      const auto bound = [&](double value) {
+        if (!isOnGrid) return scale * (value + std::generate_canonical<double, 53>(generator));
+        const double end = generator() % 2 == 0 ? -1.0 : 1.0;
+        return generator() % 3 == 0 ? std::nextafter(scale * value, end * test::kInfinity) : scale * value;
+      };
+      for (std::size_t i = kSizes[world % std::size(kSizes)]; i > 0; --i) {
+        Box box;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+          const auto min = static_cast<double>(generator() % 4);
+          box.min[axis] = bound(min);
+          box.max[axis] = bound(min + static_cast<double>(generator() % 2));
+        }
+        boxes.push_back(box);
+      }
+      begin.push_back(boxes.size());
+    }
+  }
+
+  [[nodiscard]] std::vector<Box> world(std::size_t k) const {
+    return {boxes.begin() + static_cast<std::ptrdiff_t>(begin[k]),
+            boxes.begin() + static_cast<std::ptrdiff_t>(begin[k + 1])};
+  }
+};
+
+TEST_P(WorldsApart, ByLessThanFloat32TellsGiveTheOraclesPairs) {
+  const HairsApart scene(static_cast<unsigned>(GetParam().back()));
+  std::vector<double> min;
+  std::vector<double> max;
+  for (const Box& box : scene.boxes) {
+    min.insert(min.end(), box.min.begin(), box.min.end());
+    max.insert(max.end(), box.max.begin(), box.max.end());
+  }
+  for (const BoxView& view : {BoxView(scene.boxes), BoxView::fromCorners(min, max)}) {
+    for (const Order order : {Order::ByFirst, Order::BySecond}) {
+      WorldsSearch search({.order = order, .instructionSet = GetParam()});
+      const Worlds worlds(view, scene.begin);
+      const WorldPairsView found = search.find(worlds);
+      const std::vector<std::uint64_t> ends(found.begin.begin(), found.begin.end());
+      for (std::size_t k = 0; k + 1 < scene.begin.size(); ++k) {
+        ASSERT_THAT(found[k], ElementsAreArray(test::inOrder(test::oracle(scene.world(k)), order))) << "world " << k;
+      }
+      EXPECT_THAT(search.count(worlds), ElementsAreArray(ends));
     }
   }
 }

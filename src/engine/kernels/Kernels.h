@@ -217,6 +217,9 @@ struct PlainKernels {
 
   /// Whether any value is a NaN.
   bool (*anyNan)(const T* values, std::size_t size);
+
+  /// All pairs of each of many worlds of few boxes.
+  void (*searchWorlds)(WorldsRun<T>& run);
 };
 
 /// The functions compiled once per instruction set. The results do not depend on which one runs.
@@ -252,8 +255,7 @@ struct Kernels {
   /// kVectorSlack past the last one. Returns how many there are.
   std::size_t (*writeTouching)(const TouchedBoxes& touched, bool othersSecond, Pair* pairs);
 
-  /// All pairs of each of many worlds of few boxes, and of one whose boxes need a test in double.
-  void (*searchWorlds)(WorldsRun& run);
+  /// All pairs of one of them whose boxes need the test with margins and a distance.
   void (*searchWideWorld)(const WideWorld& world, WorldSink& sink);
 
   /// Joins part of one hierarchy with another, or with itself.

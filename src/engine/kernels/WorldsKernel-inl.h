@@ -15,28 +15,24 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 
-#include "hwy/cache_control.h"
 #include "kernels/Kernels.h"
 #include "kernels/LaneTest-inl.h"
-#include "kernels/ReadKernel-inl.h"
+#include "kernels/LoadKernel-inl.h"
+#include "kernels/WorldsReadKernel-inl.h"
 #include "kernels/WorldsRun.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace allpairs::engine::HWY_NAMESPACE {
 namespace {  // Each file that compiles the kernels has its own.
 
-/// The hits of up to a word of rows, in words by row. Masks may be stored as whole words.
-using WorldHits = std::array<std::uint64_t, kMostInWorld + 1>;
-
-/// Boxes that a row is tested against at once: as many as hits make a byte.
-constexpr std::size_t kColumnsAtOnce = 8;
-
-/// Vectors of 32 bytes, although AVX-512 has longer ones: a processor that cuts those in two spends units on broadcasts
-/// to them that it does not on these, and fewer of the boxes tested precede the row (worlds_benchmark).
-template <class T>
-using WorldTag = hn::CappedTag<T, 32 / sizeof(T)>;
-using WorldFloats = hn::Vec<WorldTag<float>>;
+/// The hits of up to a word of rows, in words by row, and then those of them that are certain. Masks may be stored as
+/// whole words.
+struct WorldHits {
+  std::array<std::uint64_t, kMostInWorld> all;
+  std::array<std::uint64_t, kMostInWorld + 1> certain;
+};
 
 /// The lanes of a mask in which one value is not above another.
 template <class T, class Mask, class Vector>
@@ -46,17 +42,21 @@ HWY_INLINE Mask notAboveAlso(Mask also, Vector value, Vector other) {
   if constexpr (sizeof(T) == sizeof(float)) {
     return Mask{_mm256_mask_cmp_ps_mask(also.raw, value.raw, other.raw, _CMP_LE_OQ)};
   } else {
-    return Mask{_mm256_mask_cmp_pd_mask(also.raw, value.raw, other.raw, _CMP_LE_OQ)};
+    return Mask{_mm512_mask_cmp_pd_mask(also.raw, value.raw, other.raw, _CMP_LE_OQ)};
   }
 #else
   return hn::And(also, hn::Le(value, other));
 #endif
 }
 
-/// Boxes of float32, or of float64, against each other: exact, and empty boxes hit nothing.
-template <class T>
+/// Boxes against each other: exact, and empty boxes hit nothing. Where the bounds are those of float64 boxes as the
+/// nearest float32, which keeps their order or makes them equal, whatever overlaps is a hit, and a hit is certain if no
+/// bounds that are compared are equal.
+template <class T, bool kIsNearest = false>
 class BoundsTest {
  public:
+  static constexpr bool kHasDoubts = kIsNearest;
+
   HWY_INLINE explicit BoundsTest(const WorldTile<T>& tile) : m_tile(tile) {}
 
   /// The boxes that rows are tested against.
@@ -67,32 +67,48 @@ class BoundsTest {
     }
   }
 
-  /// Stores the hits of a row as a byte.
+  /// Stores the hits of a row as a byte, and those that are certain.
   HWY_INLINE void storeHits(std::size_t row, std::uint8_t* byte) const {
     hn::Vec<D> box[6];
     for (std::size_t bound = 0; bound < 6; ++bound) box[bound] = hn::Set(D(), m_tile[bound][row]);
     if constexpr (kVectors == 1) {
       hn::StoreMaskBits(D(), hits(box, m_columns[0]), byte);
+      if constexpr (kHasDoubts) hn::StoreMaskBits(D(), certainHits(box, m_columns[0]), byte + kToCertain);
     } else {
-      std::uint32_t bits = 0;
+      std::uint32_t all = 0;
+      std::uint32_t certain = 0;
       for (std::size_t vector = 0; vector < kVectors; ++vector) {
-        std::uint8_t part = 0;
-        hn::StoreMaskBits(D(), hits(box, m_columns[vector]), &part);
-        bits |= std::uint32_t{part} << (vector * hn::Lanes(D()));
+        all |= bitsOf(hits(box, m_columns[vector])) << (vector * hn::Lanes(D()));
+        if constexpr (kHasDoubts) certain |= bitsOf(certainHits(box, m_columns[vector])) << (vector * hn::Lanes(D()));
       }
-      *byte = static_cast<std::uint8_t>(bits);
+      byte[0] = static_cast<std::uint8_t>(all);
+      if constexpr (kHasDoubts) byte[kToCertain] = static_cast<std::uint8_t>(certain);
     }
   }
 
  private:
   using D = WorldTag<T>;
   static constexpr std::size_t kVectors = kColumnsAtOnce / hn::MaxLanes(D());
+  static constexpr std::size_t kToCertain = offsetof(WorldHits, certain);
 
   [[nodiscard]] static HWY_INLINE hn::Mask<D> hits(const hn::Vec<D>* box, const hn::Vec<D>* columns) {
     const auto from = [&](std::size_t axis) HWY_ATTR { return hn::Max(columns[axis], box[axis]); };
     const auto to = [&](std::size_t axis) HWY_ATTR { return hn::Min(columns[axis + 3], box[axis + 3]); };
     const auto xy = notAboveAlso<T>(hn::Le(from(0), to(0)), from(1), to(1));
     return notAboveAlso<T>(xy, from(2), to(2));
+  }
+
+  [[nodiscard]] static HWY_INLINE hn::Mask<D> certainHits(const hn::Vec<D>* box, const hn::Vec<D>* columns) {
+    const auto isBelow = [&](std::size_t axis) HWY_ATTR {
+      return hn::Lt(hn::Max(columns[axis], box[axis]), hn::Min(columns[axis + 3], box[axis + 3]));
+    };
+    return hn::And(hn::And(isBelow(0), isBelow(1)), isBelow(2));
+  }
+
+  [[nodiscard]] static HWY_INLINE std::uint32_t bitsOf(hn::Mask<D> mask) {
+    std::uint8_t bits = 0;
+    hn::StoreMaskBits(D(), mask, &bits);
+    return bits;
   }
 
   const WorldTile<T>& m_tile;
@@ -104,6 +120,8 @@ class BoundsTest {
 template <bool kPreceding>
 class WideTest {
  public:
+  static constexpr bool kHasDoubts = false;
+
   HWY_INLINE explicit WideTest(const WideWorld& world) : m_world(world) {}
 
   HWY_INLINE void setColumns(std::size_t place) { m_place = place; }
@@ -157,7 +175,7 @@ HWY_INLINE void testRows(Test test, const WorldPlaces& places, std::size_t begin
   const std::size_t end = firstOfWord + kWordBoxes;
   const std::size_t stop = kPreceding ? end : places.end;
   const std::size_t rowBytes = places.words * sizeof(std::uint64_t);
-  auto* const words = reinterpret_cast<std::uint8_t*>(hits.data());
+  auto* const words = reinterpret_cast<std::uint8_t*>(&hits);
   for (std::size_t columns = (kPreceding ? places.first : begin) / kColumnsAtOnce * kColumnsAtOnce; columns < stop;
        columns += kColumnsAtOnce) {
     test.setColumns(columns);
@@ -241,18 +259,21 @@ struct Partners {
 };
 
 /// The hits of rows in [begin, end) as pairs. With kUnasked pairs of a word that are written unasked; 0 counts pairs
-/// only.
-template <bool kPreceding, std::size_t kUnasked>
-HWY_INLINE void takeRows(const WorldHits& hits, const WorldPlaces places, std::size_t begin, std::size_t end,
+/// only. Returns whether all are certain.
+template <bool kPreceding, std::size_t kUnasked, bool kHasDoubts>
+HWY_INLINE bool takeRows(const WorldHits& hits, const WorldPlaces places, std::size_t begin, std::size_t end,
                          const Partners partners, WorldSink& sink) {
-  const std::uint64_t* words = hits.data() + begin % kWordBoxes * places.words;
+  const std::uint64_t* words = hits.all.data() + begin % kWordBoxes * places.words;
+  const std::uint64_t* certain = hits.certain.data() + begin % kWordBoxes * places.words;
+  std::uint64_t doubts = 0;
   std::uint64_t size = sink.size;
-  for (std::size_t row = begin; row < end; ++row, words += places.words) {
+  for (std::size_t row = begin; row < end; ++row, words += places.words, certain += places.words) {
     const auto box = static_cast<std::uint32_t>(row - places.first);
     const std::size_t firstWord = kPreceding ? 0 : row / kWordBoxes;
     const std::size_t endWord = kPreceding ? row / kWordBoxes + 1 : places.words;
     for (std::size_t word = firstWord; word < endWord; ++word) {
       const std::uint64_t bits = bitsOfRow<kPreceding>(words[word], word, row, places) & partners.of(row, word);
+      if constexpr (kHasDoubts) doubts |= bits & ~certain[word];
       if constexpr (kUnasked == 0) {
         size += static_cast<std::size_t>(std::popcount(bits));
       } else {
@@ -262,153 +283,93 @@ HWY_INLINE void takeRows(const WorldHits& hits, const WorldPlaces places, std::s
     }
   }
   sink.size = size;
+  return doubts == 0;
 }
 
-/// All pairs of one world. Of worlds of one word most rows have hits in it; of larger ones few words have more than
+/// All pairs of one world; returns whether they are certain. Of worlds of one word most rows have hits in it; of larger ones few words have more than
 /// two.
 template <bool kPreceding, bool kCount, class Test>
-HWY_INLINE void searchWorld(const Test& test, const WorldPlaces& places, const Partners& partners, WorldSink& sink) {
+HWY_INLINE bool searchWorld(const Test& test, const WorldPlaces& places, const Partners& partners, WorldSink& sink) {
   WorldHits hits;
   if (places.words == 1) {
     testRows<kPreceding>(test, {places.first, kWordBoxes, 1}, places.first, hits);
-    takeRows<kPreceding, kCount ? 0 : 4>(hits, {places.first, kWordBoxes, 1}, places.first, kWordBoxes, partners, sink);
-    return;
+    return takeRows < kPreceding, kCount ? 0 : 4,
+           Test::kHasDoubts > (hits, {places.first, kWordBoxes, 1}, places.first, kWordBoxes, partners, sink);
   }
+  bool areCertain = true;
   for (std::size_t begin = places.first; begin < places.end;) {
     const std::size_t end = begin / kWordBoxes * kWordBoxes + kWordBoxes;
     testRows<kPreceding>(test, places, begin, hits);
-    takeRows<kPreceding, kCount ? 0 : 2>(hits, places, begin, end, partners, sink);
+    areCertain &= takeRows < kPreceding, kCount ? 0 : 2, Test::kHasDoubts > (hits, places, begin, end, partners, sink);
     begin = end;
   }
+  return areCertain;
 }
 
 /// The same, for what is known of all worlds only now.
 template <bool kPreceding, class Test>
-HWY_INLINE void searchSome(const Test& test, const WorldPlaces& places, const Partners& partners, WorldSink& sink) {
-  sink.countOnly ? searchWorld<kPreceding, true>(test, places, partners, sink)
-                 : searchWorld<kPreceding, false>(test, places, partners, sink);
+HWY_INLINE bool searchSome(const Test& test, const WorldPlaces& places, const Partners& partners, WorldSink& sink) {
+  return sink.countOnly ? searchWorld<kPreceding, true>(test, places, partners, sink)
+                        : searchWorld<kPreceding, false>(test, places, partners, sink);
 }
 
-#if HWY_TARGET != HWY_SCALAR
-
-/// Four values of a box of a row of six, and if there are lanes for them those of the fourth box after it.
-template <class D>
-HWY_INLINE hn::Vec<D> fourOfBoxes(D d, const float* values) {
-  if constexpr (hn::MaxLanes(D()) == 4) {
-    return hn::LoadU(d, values);
+/// Searches the boxes of a world as a test has them. Worlds without a filter whose pairs are wanted by their first boxes
+/// have a loop of their own.
+template <bool kPreceding, bool kPlain, class Test>
+HWY_INLINE bool searchRead(const Test& test, const WorldPlaces& places, WorldSink& sink) {
+  if constexpr (kPlain) {
+    return searchWorld<kPreceding, false>(test, places, {places}, sink);
   } else {
-    const hn::Half<D> half;
-    return hn::Combine(d, hn::LoadU(half, values + std::size_t{6} * 4), hn::LoadU(half, values));
+    return searchSome<kPreceding>(test, places, {places, sink.allowed}, sink);
   }
 }
 
-#endif
-
-/// As many boxes as a vector has lanes, from rows of six that follow each other.
-HWY_INLINE void readRowsOfSix(const float* rows, WorldTile<float>& tile, std::size_t at) {
-  const WorldTag<float> d;
-#if HWY_TARGET == HWY_SCALAR
-  for (std::size_t bound = 0; bound < 6; ++bound) hn::StoreU(hn::LoadU(d, rows + bound), d, &tile[bound][at]);
-#else
-  const auto load = [&](std::size_t box, std::size_t bound) HWY_ATTR { return fourOfBoxes(d, rows + 6 * box + bound); };
-  const hn::Repartition<std::uint64_t, WorldTag<float>> twos;
-  // Two bounds of boxes 0 and 1, and of 2 and 3.
-  const auto store = [&](WorldFloats first, WorldFloats last, std::size_t bound) HWY_ATTR {
-    const auto lower = hn::InterleaveLower(twos, hn::BitCast(twos, first), hn::BitCast(twos, last));
-    const auto upper = hn::InterleaveUpper(twos, hn::BitCast(twos, first), hn::BitCast(twos, last));
-    hn::StoreU(hn::BitCast(d, lower), d, &tile[bound][at]);
-    hn::StoreU(hn::BitCast(d, upper), d, &tile[bound + 1][at]);
-  };
-  const WorldFloats fromFirst[4] = {load(0, 0), load(1, 0), load(2, 0), load(3, 0)};
-  const WorldFloats toLast[4] = {load(0, 2), load(1, 2), load(2, 2), load(3, 2)};
-  const auto lower = [&](const WorldFloats* boxes) HWY_ATTR { return hn::InterleaveLower(d, boxes[0], boxes[1]); };
-  const auto upper = [&](const WorldFloats* boxes) HWY_ATTR { return hn::InterleaveUpper(d, boxes[0], boxes[1]); };
-  store(lower(fromFirst), lower(fromFirst + 2), 0);
-  store(upper(fromFirst), upper(fromFirst + 2), 2);
-  store(upper(toLast), upper(toLast + 2), 4);
-#endif
+/// Reads a world and searches it as its boxes are.
+template <bool kPreceding, bool kPlain, class T>
+HWY_INLINE void searchExactly(const WorldsRun<T>& run, std::size_t first, const WorldPlaces& places, WorldSink& sink) {
+  alignas(64) WorldTile<T> tile;
+  readWorld(run, first, places, tile);
+  searchRead<kPreceding, kPlain>(BoundsTest<T>(tile), places, sink);
 }
 
-/// The same of corners in an array of their own.
-HWY_INLINE void readCornersOfThree(const float* corners, WorldTile<float>& tile, std::size_t bound, std::size_t at) {
-  const WorldTag<float> d;
-#if HWY_TARGET == HWY_SCALAR
-  for (std::size_t axis = 0; axis < 3; ++axis) hn::StoreU(hn::LoadU(d, corners + axis), d, &tile[bound + axis][at]);
-#else
-  WorldFloats corner[3];
-  hn::LoadInterleaved3(d, corners, corner[0], corner[1], corner[2]);
-  for (std::size_t axis = 0; axis < 3; ++axis) hn::StoreU(corner[axis], d, &tile[bound + axis][at]);
-#endif
-}
-
-/// As many boxes as a vector has lanes, as they are, to places from `at` on.
-HWY_INLINE void readCorners(const float* min, const float* max, std::size_t stride, WorldTile<float>& tile,
-                            std::size_t at) {
-  if (stride == 6) {
-    readRowsOfSix(min, tile, at);
-  } else {
-    readCornersOfThree(min, tile, 0, at);
-    readCornersOfThree(max, tile, 3, at);
-  }
-}
-
-/// The same for a world's first vector, of which the places before `skipped` lie before all boxes in memory.
-HWY_INLINE void readFirstCorners(const WorldsRun& run, std::size_t skipped, std::size_t boxes, WorldTile<float>& tile,
-                                 std::size_t at) {
-  std::array<float, 6 * kFanOut> copy{};
-  float* const min = copy.data();
-  float* const max = run.boxes.stride == 3 ? min + 3 * kFanOut : min + 3;
-  for (std::size_t i = 0; i < boxes; ++i) {
-    std::copy_n(run.boxes.min + i * run.boxes.stride, 3, min + (skipped + i) * run.boxes.stride);
-    std::copy_n(run.boxes.max + i * run.boxes.stride, 3, max + (skipped + i) * run.boxes.stride);
-  }
-  readCorners(min, max, run.boxes.stride, tile, at);
-}
-
-/// A world's boxes; what is in front of them in memory comes along.
-HWY_INLINE void readWorld(const WorldsRun& run, std::size_t firstBox, const WorldPlaces& places,
-                          WorldTile<float>& tile) {
-  const std::size_t lanes = hn::Lanes(WorldTag<float>());
-  std::size_t at = places.first / lanes * lanes;
-  const std::size_t skipped = places.first - at;
-  if (firstBox < skipped) {
-    // Boxes that precede the world are in the vector too, but not as many as it has room for.
-    readFirstCorners(run, skipped - firstBox, firstBox + lanes - skipped, tile, at);
-    at += lanes;
-  }
-  for (; at < places.end; at += lanes) {
-    const std::size_t from = (firstBox + at - places.first) * run.boxes.stride;
-    readCorners(run.boxes.min + from, run.boxes.max + from, run.boxes.stride, tile, at);
-  }
-}
-
-/// Prefetches, line by line, what is read a page later: the processor's own prefetching ends with a page.
-HWY_INLINE void prefetchAfter(const WorldsRun& run, std::size_t box, std::size_t boxes) {
-  const std::size_t begin = box * run.boxes.stride + 4096 / sizeof(float);
-  const std::size_t end = std::min(begin + boxes * run.boxes.stride, run.worlds->begin(run.end) * run.boxes.stride);
-  for (std::size_t i = begin; i < end; i += 64 / sizeof(float)) {
-    hwy::Prefetch(run.boxes.min + i);
-    if (run.boxes.stride == 3) hwy::Prefetch(run.boxes.max + i);
-  }
-}
-
-/// Worlds without a filter whose pairs are wanted by their first boxes have a loop of their own.
+/// A function of its own, as is the next one: what is inlined into one compilers keep in memory, not in registers.
 template <bool kPreceding, bool kPlain>
-HWY_INLINE void searchRun(WorldsRun& run) {
+HWY_NOINLINE void searchInDouble(const WorldsRun<double>& run, std::size_t first, const WorldPlaces& places,
+                                 WorldSink& sink) {
+  searchExactly<kPreceding, kPlain>(run, first, places, sink);
+}
+
+/// The same of boxes of float64 in float32; returns whether all pairs are certain, else leaves the sink as it was.
+template <bool kPreceding, bool kPlain>
+HWY_NOINLINE bool searchNearest(const WorldsRun<double>& run, std::size_t first, const WorldPlaces& places,
+                                WorldSink& sink) {
   alignas(64) WorldTile<float> tile;
+  readWorld(run, first, places, tile);
+  const std::uint64_t before = sink.size;
+  if (searchRead<kPreceding, kPlain>(BoundsTest<float, true>(tile), places, sink)) return true;
+  sink.size = before;
+  return false;
+}
+
+template <bool kPreceding, bool kPlain, class T>
+HWY_INLINE void searchRun(WorldsRun<T>& run) {
   WorldSink sink = run.sink;
+  [[maybe_unused]] std::size_t inDouble = 0;  // So many worlds more are not searched in float32.
   for (; run.world < run.end; ++run.world) {
     const std::size_t first = run.worlds->begin(run.world);
     const std::size_t boxes = run.worlds->begin(run.world + 1) - first;
     if (boxes > run.mostBoxes || !sink.takes(boxes)) break;
     const WorldPlaces places = WorldPlaces::of(boxes);
     prefetchAfter(run, first + boxes, boxes);
-    readWorld(run, first, places, tile);
-    const BoundsTest<float> test(tile);
-    if constexpr (kPlain) {
-      searchWorld<kPreceding, false>(test, places, {places}, sink);
+    if constexpr (std::is_same_v<T, float>) {
+      searchExactly<kPreceding, kPlain>(run, first, places, sink);
     } else {
-      searchSome<kPreceding>(test, places, {places, run.sink.allowed, nullptr}, sink);
+      // After a world with a pair in doubt the next ones often have such pairs too.
+      if (inDouble == 0 && !searchNearest<kPreceding, kPlain>(run, first, places, sink)) inDouble = kFanOut;
+      if (inDouble != 0) {
+        searchInDouble<kPreceding, kPlain>(run, first, places, sink);
+        --inDouble;
+      }
     }
     run.pairEnd[run.world] = sink.size;
     run.boxTests += WorldSink::pairsOf(boxes);
@@ -416,7 +377,8 @@ HWY_INLINE void searchRun(WorldsRun& run) {
   run.sink = sink;
 }
 
-void searchWorlds(WorldsRun& run) {
+template <class T>
+void searchWorlds(WorldsRun<T>& run) {
   if (run.sink.bySecond) {
     searchRun<true, false>(run);
   } else if (run.sink.allowed != nullptr || run.sink.countOnly) {

@@ -79,10 +79,11 @@ struct WorldSink {
   }
 };
 
-/// Worlds of float32 boxes, one after the other, all pairs of each tested, up to a world that is too large or that
+/// Worlds of boxes as they are, one after the other, all pairs of each tested, up to a world that is too large or that
 /// there may be no room for.
+template <class T>
 struct WorldsRun {
-  BoxRun<float> boxes;
+  BoxRun<T> boxes;
   const Worlds* worlds = nullptr;
   std::size_t world = 0;  ///< The next one; the one that it stopped at.
   std::size_t end = 0;

@@ -81,14 +81,14 @@ std::span<const Pair> SmallWorlds::findInRow(std::size_t row, std::size_t& done,
   // Two parts of pairs stay in a second-level cache until they are taken.
   const std::size_t least = WorldSink::roomFor(begin[done + 2] - begin[done + 1]);
   worker.pairs.require(done + 1 == row ? least : std::max(2 * kPartSize, least));
-  WorldsRun run;
+  WorldsRun<float> run;
   run.sink = sinkOf(worker);
   run.boxes = runOf<float>(*m_boxes);
   run.worlds = &worlds;
   run.world = done + 1;
   run.end = row + 1;
   run.pairEnd = worker.pairEnd.data();
-  m_kernels.searchWorlds(run);
+  m_kernels.plain<float>().searchWorlds(run);
   worker.boxTests += run.boxTests;
   Pair* pair = worker.pairs.data();
   for (; done + 1 < run.world; ++done) {
@@ -129,13 +129,13 @@ std::uint64_t SmallWorlds::runPlain(std::span<const BoxId> ids, Worker& worker) 
   const std::array<std::uint64_t, 2> begin{0, ids.size()};
   const Worlds worlds(m_boxes->slice(0, ids.size()), begin);
   std::uint64_t pairEnd = 0;
-  WorldsRun run;
+  WorldsRun<float> run;
   run.sink = sinkOf(worker);
   run.boxes = {worker.rows.data(), worker.rows.data() + 3, 6, ids.size()};
   run.worlds = &worlds;
   run.end = 1;
   run.pairEnd = &pairEnd;
-  m_kernels.searchWorlds(run);
+  m_kernels.plain<float>().searchWorlds(run);
   return run.sink.size;
 }
 

@@ -23,15 +23,17 @@ std::uint64_t workOf(std::uint64_t boxes, std::uint64_t mostBoxes) {
   return 16 + boxes * (boxes <= mostBoxes ? 4 + boxes / kFanOut : 64);
 }
 
-/// How many times more boxes the kernel for worlds takes than a search of one set tests exhaustively, until a hierarchy
-/// is faster: it does not round, nor put pairs in order (worlds_benchmark).
+/// How many times more boxes the kernel for worlds takes than a search of one set tests exhaustively, and of float64 than
+/// are tested in double, until a hierarchy is faster: it does not put pairs in order, and rounds to the nearest only
+/// (worlds_benchmark).
 constexpr std::size_t kTimesFlat = 2;
 
 /// The number of boxes up to which the exhaustive kernel finds the pairs that a search would, in the same order.
-std::size_t mostBoxesOf(const Kernels& kernels, const OverlapOptions& options) {
+std::size_t mostBoxesOf(const Kernels& kernels, const OverlapOptions& options, bool areFloat64) {
   if (options.strategy == Strategy::Bvh) return 0;
   if (options.strategy == Strategy::Exhaustive) return kMostInWorld;
   const std::size_t flat = kernels.flatBoxes;
+  if (areFloat64) return std::min(flat, kTimesFlat * kernels.wideBoxes);
   return std::min(kMostInWorld, options.order == Order::Unordered ? flat : kTimesFlat * flat);
 }
 
@@ -56,8 +58,9 @@ void WorldsSearcher::begin(const Worlds& worlds, const OverlapOptions& options) 
   checkStop(options.stop);
   m_executor = &m_callExecutor.over(options.executor, options.stop);
   const BoxView& boxes = worlds.boxes();
-  m_isPlain = options.distance == 0.0 && !options.region && !boxes.hasMargins() && areRun<float>(boxes);
-  m_mostBoxes = mostBoxesOf(*m_kernels, options);
+  m_isPlain = options.distance == 0.0 && !options.region && !boxes.hasMargins() &&
+              (areRun<float>(boxes) || areRun<double>(boxes));
+  m_mostBoxes = mostBoxesOf(*m_kernels, options, boxes.isFloat64());
   if (!m_isPlain) m_mostBoxes = std::min(m_mostBoxes, m_kernels->wideBoxes);
   m_filter.prepare(worlds, options, m_mostBoxes);
   m_workers.require(m_executor->concurrency());
@@ -177,7 +180,7 @@ std::span<const std::uint64_t> WorldsSearcher::list(const Worlds& worlds, const 
 void WorldsSearcher::searchPart(const Part& part, Worker& worker, WorldSink& sink) {
   for (std::size_t world = part.begin; world < part.end;) {
     if (m_isPlain && !m_filter.selects()) {
-      const std::size_t next = runKernel(world, part.end, worker, sink);
+      const std::size_t next = runPlain(world, part.end, worker, sink);
       checkLimit(m_options->maxPairs, sink.size);
       if (next == part.end) return;
       world = next;
@@ -195,19 +198,25 @@ void WorldsSearcher::searchPart(const Part& part, Worker& worker, WorldSink& sin
 }
 
 /// Worlds that the kernel reads itself, as many as there is room for; returns the one that follows them.
+template <class T>
 std::size_t WorldsSearcher::runKernel(std::size_t world, std::size_t end, Worker& worker, WorldSink& sink) {
-  WorldsRun run;
-  run.boxes = runOf<float>(m_worlds->boxes());
+  WorldsRun<T> run;
+  run.boxes = runOf<T>(m_worlds->boxes());
   run.worlds = m_worlds;
   run.world = world;
   run.end = end;
   run.mostBoxes = m_mostBoxes;
   run.sink = sink;
   run.pairEnd = m_begin.data() + 1;
-  m_kernels->searchWorlds(run);
+  m_kernels->plain<T>().searchWorlds(run);
   sink = run.sink;
   worker.statistics.boxTests += run.boxTests;
   return run.world;
+}
+
+std::size_t WorldsSearcher::runPlain(std::size_t world, std::size_t end, Worker& worker, WorldSink& sink) {
+  return m_worlds->boxes().isFloat64() ? runKernel<double>(world, end, worker, sink)
+                                       : runKernel<float>(world, end, worker, sink);
 }
 
 /// One world, in its place if there is certainly room for all its pairs before some are selected, else beside it.
@@ -222,7 +231,7 @@ void WorldsSearcher::searchSmall(std::size_t world, Worker& worker, WorldSink& s
     found.allowed = sink.allowed;
   }
   const std::uint64_t before = found.size;
-  m_isPlain ? static_cast<void>(runKernel(world, world + 1, worker, found)) : runWide(world, worker, found);
+  m_isPlain ? static_cast<void>(runPlain(world, world + 1, worker, found)) : runWide(world, worker, found);
   if (m_filter.selects()) {
     found.size = before + m_filter.select(world, {found.pairs + before, found.size - before});
   }

@@ -65,7 +65,9 @@ class WorldsSearcher {
   void placeParts();
 
   void searchPart(const Part& part, Worker& worker, WorldSink& sink);
+  template <class T>
   std::size_t runKernel(std::size_t world, std::size_t end, Worker& worker, WorldSink& sink);
+  std::size_t runPlain(std::size_t world, std::size_t end, Worker& worker, WorldSink& sink);
   void searchSmall(std::size_t world, Worker& worker, WorldSink& sink);
   void searchLarge(std::size_t world, bool takesAllThreads, Worker& worker, WorldSink& sink);
   void runWide(std::size_t world, Worker& worker, WorldSink& sink) const;
