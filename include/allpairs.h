@@ -7,7 +7,7 @@
 // which accepts null. One thread at a time may use a handle, unless it is const. Null for a required handle or result
 // is an ALLPAIRS_INVALID_ARGUMENT.
 //
-// A call that fails, because memory is exhausted or a visitor stopped it, leaves its handle as it was and usable: the
+// A call that fails, because memory is exhausted or a callback stopped it, leaves its handle as it was and usable: the
 // next allpairs_world_step() reports what has changed since the last one that succeeded. Only what an allpairs_search
 // found before is lost by a search that fails, as by one that succeeds. A callback may use other handles, and what takes
 // a const one; else using the handle that is calling it, of allpairs_world_find_between() both, is an
@@ -18,6 +18,7 @@
 //
 // Structures may grow at their end: struct_size tells the library which fields the caller has. All other fields of
 // options may be 0. A category or mask of 0 is none: begin properties and filters of queries with their defaults.
+// A struct_size of 0, or beyond this library's, is an ALLPAIRS_INVALID_ARGUMENT.
 #pragma once
 
 #include <stdbool.h>
@@ -46,7 +47,7 @@ typedef enum allpairs_status {
                                   ///< was passed: in the set, or in the ids.
   ALLPAIRS_LIMIT_EXCEEDED = 3,  ///< More pairs than max_pairs, or than there is room for: allpairs_error_index() is the
                                 ///< number found so far, or in all.
-  ALLPAIRS_STOPPED = 4,         ///< A visitor stopped the search.
+  ALLPAIRS_STOPPED = 4,         ///< A visitor, or `stop` of the options, ended the search.
   ALLPAIRS_OUT_OF_MEMORY = 5,
   ALLPAIRS_INTERNAL = 6  ///< Any other failure; allpairs_error_message() may say more.
 } allpairs_status;
@@ -59,6 +60,10 @@ ALLPAIRS_C_API uint64_t allpairs_error_index(void);
 
 /// The version of the library: "0.1.0".
 ALLPAIRS_C_API const char* allpairs_version(void);
+
+/// The names of the instruction sets that both this processor and this library support, best first; "SCALAR" is always
+/// the last. Null for an index that is not below their number. The text stays valid.
+ALLPAIRS_C_API const char* allpairs_instruction_set(size_t index);
 
 /// Two boxes by index. Within one set first < second; between two sets, first is of the first set.
 typedef struct allpairs_pair {
@@ -143,6 +148,11 @@ typedef struct allpairs_filter {
 /// the search has them.
 typedef bool (*allpairs_accept)(void* context, uint32_t first, uint32_t second);
 
+/// Says whether to end a call, which is then ALLPAIRS_STOPPED: for a time limit, or for what another thread or a signal
+/// handler has written to an atomic variable. Asked every few milliseconds and once in some thousand pairs, by several
+/// threads at once if the handle has them; a call about few boxes may end first.
+typedef bool (*allpairs_stop)(void* context);
+
 /// The allocator of a handle, for its working memory and its results. All null: aligned operator new, with large pages
 /// for large blocks where the system has them. Set both functions or none.
 ///
@@ -168,6 +178,9 @@ typedef struct allpairs_options {
   size_t threads;          ///< 0 and 1: the calling one. ALLPAIRS_ALL_THREADS: all. The result is the same.
   uint64_t max_pairs;      ///< More pairs, found, counted or streamed, are an ALLPAIRS_LIMIT_EXCEEDED; 0: no limit.
   allpairs_memory memory;  ///< Setting options with different memory later is an error.
+  const char* instruction_set;  ///< One of allpairs_instruction_set(), or null: the best. Read when options are set.
+  allpairs_stop stop;           ///< May be null, and then costs nothing.
+  void* stop_context;
 } allpairs_options;
 
 /// The default settings.
@@ -184,14 +197,29 @@ static inline allpairs_options allpairs_default_options(void) {
 /// Finds overlapping boxes, and keeps its working memory between searches.
 typedef struct allpairs_search allpairs_search;
 
-/// What the options point to, except the region, must outlive their use. Null options are the defaults. A distance or
-/// region that is none is an ALLPAIRS_INVALID_ARGUMENT of the searches that use it.
+/// What the options point to, except the region and the name of the instruction set, must outlive their use. Null
+/// options are the defaults. A distance or region that is none is an ALLPAIRS_INVALID_ARGUMENT of the searches that use
+/// it.
 ALLPAIRS_C_API allpairs_status allpairs_search_create(const allpairs_options* options, allpairs_search** search);
 ALLPAIRS_C_API allpairs_status allpairs_search_set_options(allpairs_search* search, const allpairs_options* options);
 ALLPAIRS_C_API void allpairs_search_destroy(allpairs_search* search);
 
 /// Releases the memory kept for the next search. The pairs of the last search stay valid, those of worlds do not.
 ALLPAIRS_C_API allpairs_status allpairs_search_shrink(allpairs_search* search);
+
+/// Numbers of a search, of one set, of two or of worlds. Set struct_size.
+typedef struct allpairs_overlap_statistics {
+  size_t struct_size;    ///< sizeof(allpairs_overlap_statistics)
+  uint64_t pairs;        ///< The number of pairs in the result; each is counted once, in rows too.
+  uint64_t box_tests;    ///< Tests of two boxes, each in one lane of a vector.
+  uint64_t group_tests;  ///< Tests of the bounds of two groups, or of a box and a group.
+  uint64_t exact_tests;  ///< Candidates that float could not decide, and that were tested in double.
+} allpairs_overlap_statistics;
+
+/// Writes the statistics of the last search: all 0 if it failed, or there was none. All but `pairs` depend on the
+/// instruction set.
+ALLPAIRS_C_API allpairs_status allpairs_search_statistics(const allpairs_search* search,
+                                                          allpairs_overlap_statistics* statistics);
 
 /// All overlapping pairs of one set, each once; valid until the next search or the end of the handle.
 ALLPAIRS_C_API allpairs_status allpairs_find(allpairs_search* search, const allpairs_set* set, allpairs_pairs* pairs);
@@ -344,6 +372,9 @@ typedef struct allpairs_world_options {
   void* accept_context;
   size_t threads;  ///< As in allpairs_options.
   allpairs_memory memory;
+  const char* instruction_set;  ///< As in allpairs_options.
+  allpairs_stop stop;           ///< Of steps and queries.
+  void* stop_context;
 } allpairs_world_options;
 
 /// The pairs of a step, of ids, first < second, each list in the order of the options; valid until the next step.
@@ -367,6 +398,11 @@ ALLPAIRS_C_API void allpairs_world_destroy(allpairs_world* world);
 /// Releases the memory that neither the boxes nor the lists of the last step need; invalidates results of queries.
 ALLPAIRS_C_API allpairs_status allpairs_world_shrink(allpairs_world* world);
 
+/// Reserves memory for that many boxes in all, so that adding them allocates little.
+///
+/// Bad input: more than can be numbered, 2^32 - 1, are an ALLPAIRS_INVALID_ARGUMENT.
+ALLPAIRS_C_API allpairs_status allpairs_world_reserve(allpairs_world* world, size_t boxes);
+
 /// An array of ids.
 typedef struct allpairs_ids {
   const uint32_t* data;
@@ -384,6 +420,20 @@ ALLPAIRS_C_API allpairs_status allpairs_world_move(allpairs_world* world, allpai
 /// Sets the bounds of boxes to the union of their start and their end.
 ALLPAIRS_C_API allpairs_status allpairs_world_move_swept(allpairs_world* world, allpairs_ids ids,
                                                          const allpairs_set* starts, const allpairs_set* ends);
+
+/// How boxes move: the velocity of each in rows of three, and for how long.
+typedef struct allpairs_velocities {
+  const double* data;
+  double duration;
+} allpairs_velocities;
+
+/// Like allpairs_world_move_swept(), with ends that are start + velocity * duration, in double.
+///
+/// Bad input: a velocity that is not finite is an ALLPAIRS_INVALID_BOX, and so is a motion of an infinite box that
+///            gives a NaN; a duration that is not finite is an ALLPAIRS_INVALID_ARGUMENT.
+ALLPAIRS_C_API allpairs_status allpairs_world_move_swept_by(allpairs_world* world, allpairs_ids ids,
+                                                            const allpairs_set* starts,
+                                                            const allpairs_velocities* velocities);
 
 ALLPAIRS_C_API allpairs_status allpairs_world_remove(allpairs_world* world, allpairs_ids ids);
 
@@ -419,6 +469,10 @@ ALLPAIRS_C_API allpairs_status allpairs_world_invalidate(allpairs_world* world, 
 ALLPAIRS_C_API size_t allpairs_world_size(const allpairs_world* world);
 ALLPAIRS_C_API bool allpairs_world_contains(const allpairs_world* world, uint32_t id);
 
+/// A number above all ids, those of removed boxes included: the size of an array that is indexed by id. 0 for null.
+/// allpairs_world_shrink() may lower it.
+ALLPAIRS_C_API uint32_t allpairs_world_id_bound(const allpairs_world* world);
+
 /// Writes the ids of all boxes, ascending: as many as allpairs_world_size() says.
 ///
 /// Cost: that of a pass over all ids that there have been.
@@ -436,6 +490,23 @@ ALLPAIRS_C_API allpairs_status allpairs_world_number(const allpairs_world* world
 
 /// Finds the current pairs.
 ALLPAIRS_C_API allpairs_status allpairs_world_step(allpairs_world* world, allpairs_step* step);
+
+/// Numbers of the last step of a world, and of all its steps. Set struct_size.
+typedef struct allpairs_step_statistics {
+  size_t struct_size;  ///< sizeof(allpairs_step_statistics)
+  uint64_t box_tests;  ///< As in allpairs_overlap_statistics, and so the next two.
+  uint64_t group_tests;
+  uint64_t exact_tests;
+  uint64_t changed;  ///< Boxes that were added, moved, removed or given other properties.
+  /// Full rebuilds of a hierarchy up to the last step, by steps and queries; with world numbers, how often a world's
+  /// boxes were put in order.
+  uint64_t rebuilds;
+  bool joined_all;  ///< Whether the step joined all boxes, instead of only the changed ones with all.
+} allpairs_step_statistics;
+
+/// Writes the statistics of the last step; all 0 before the first one. After a step that failed they mean nothing.
+ALLPAIRS_C_API allpairs_status allpairs_world_statistics(const allpairs_world* world,
+                                                         allpairs_step_statistics* statistics);
 
 /// The lists of the last step for one world: the pairs of its boxes with each other and with those of every world; with
 /// ALLPAIRS_EVERY_WORLD, the pairs of two boxes of every world. Valid until the next step.
@@ -621,6 +692,8 @@ typedef struct allpairs_elements_options {
   allpairs_order order;
   size_t threads;          ///< As in allpairs_options.
   allpairs_memory memory;  ///< Of candidates and the search; meshes and the boxes of elements are allocated elsewhere.
+  allpairs_stop stop;      ///< As in allpairs_options.
+  void* stop_context;
 } allpairs_elements_options;
 
 /// The two kinds of element in a candidate.

@@ -12,6 +12,7 @@
 
 #include "../Choices.h"
 #include "CSearch.h"
+#include "CWorld.h"
 
 namespace allpairs::fuzz {
 namespace {
@@ -63,7 +64,9 @@ class Calls {
     static constexpr std::array<Operation, 7> kRarer{&Calls::findInto,    &Calls::findRows,  &Calls::findInWorlds,
                                                      &Calls::addToWorlds, &Calls::setWorlds, &Calls::restrictQueries,
                                                      &Calls::shrink};
+    static constexpr std::array<Operation, 3> kRarest{&Calls::tellOfWorld, &Calls::moveByVelocities, &Calls::stop};
     const std::uint8_t choice = m_choices.byte();
+    if (choice >= 250) return (this->*kRarest[choice % kRarest.size()])();
     const bool isRarer = choice >= 160;
     (this->*(isRarer ? kRarer[choice % kRarer.size()] : kOperations[choice % kOperations.size()]))();
   }
@@ -236,8 +239,7 @@ class Calls {
       require(!isDone || allpairs_world_contains(world, id), "what was added is there");
   }
 
-  /// The numbers of worlds that boxes have here, each as likely.
-  static constexpr std::array<std::uint32_t, 4> kNumbers{0, 1, 7, ALLPAIRS_EVERY_WORLD};
+  /// Each as likely.
   std::uint32_t anyNumber() { return kNumbers[m_choices.below(kNumbers.size())]; }
 
   void addToWorlds() {
@@ -305,6 +307,30 @@ class Calls {
             "boxes are removed all or not at all");
   }
 
+  void tellOfWorld() {
+    allpairs_world* world = anyWorld();
+    reserve(world,
+            m_choices.byte() >= 250 ? m_choices.raw<std::size_t>() | std::size_t{1} << 40 : m_choices.below(999));
+    checkStatistics(world, m_choices.byte() >= 192 ? m_choices.below(80) : sizeof(allpairs_step_statistics));
+  }
+
+  void moveByVelocities() {
+    allpairs_world* world = anyWorld();
+    const SetHandle& handle = anySet();
+    const std::vector<std::uint32_t> list = ids(world, allpairs_set_size(handle.set));
+    std::vector<double> velocities(3 * allpairs_set_size(handle.set));
+    for (double& each : velocities) each = m_choices.anyNumber();
+    const allpairs_velocities motion{maybeNull(velocities.data()), m_choices.anyNumber()};
+    checked(allpairs_world_move_swept_by(world, {list.data(), list.size()}, handle.set, maybeNull(&motion)));
+  }
+
+  void stop() {
+    const CSearch search = anyCSearch();
+    allpairs_options given = options();
+    given.instruction_set = allpairs_instruction_set(m_choices.below(20));
+    stopSearch(search, given);
+  }
+
   void step() {
     allpairs_world* world = anyWorld();
     allpairs_step step{};
@@ -319,19 +345,6 @@ class Calls {
       require(checked(allpairs_world_box(world, pair.first, bounds.data())) == ALLPAIRS_OK, "a box can be asked for");
     }
     compareResults(world, step);
-  }
-
-  /// Each pair of a step is of one world, or of every world.
-  void compareResults(allpairs_world* world, const allpairs_step& step) {
-    std::array<std::size_t, 4> sums{};  // of pairs, began, persisted, ended
-    for (const std::uint32_t number : kNumbers) {
-      allpairs_step result{};
-      require(checked(allpairs_world_result_of(world, number, &result)) == ALLPAIRS_OK, "each world has a result");
-      const std::array counts{result.pairs.count, result.began.count, result.persisted.count, result.ended.count};
-      for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += counts[i];
-    }
-    require(sums[0] == step.pairs.count && sums[1] + sums[2] == sums[0], "each pair of a step is of one world");
-    require(sums[1] - step.began.count == sums[3] - step.ended.count, "what changes its world ends there, begins here");
   }
 
   allpairs_query_filter filter() {
@@ -379,12 +392,6 @@ class Calls {
     }
     checked(allpairs_world_find_nearest(world, &nearest, &wanted, &neighbors));
     require(neighbors.count <= nearest.count, "no more neighbors are given than were asked for");
-  }
-
-  static void compareFirst(const allpairs_hit& first, const allpairs_hits& all) {
-    require((first.id == ALLPAIRS_NO_BOX) == (all.count == 0), "there is a first hit if there is any");
-    require(all.count == 0 || (all.data->id == first.id && all.data->t == first.t),
-            "the first hit is the first of all");
   }
 
   void queryMany() {
@@ -446,17 +453,8 @@ class Calls {
     allpairs_elements* elements = m_elements[m_choices.below(kHandles)];
     moveElements(elements, m_choices.below(3));
     const auto kind = static_cast<allpairs_candidates>(m_choices.below(3));
-    std::uint64_t count = 0;
-    Seen seen;
+    if (!compareCandidates(elements, kind)) return;
     allpairs_pairs pairs{};
-    const allpairs_status counted = checked(allpairs_elements_count(elements, kind, &count));
-    if (counted != ALLPAIRS_OK) return;
-    require(checked(allpairs_elements_stream(elements, kind, {see, &seen, 0})) == ALLPAIRS_OK,
-            "candidates are streamed");
-    require(checked(allpairs_elements_find(elements, kind, &pairs)) == ALLPAIRS_OK, "candidates are found");
-    require(count == pairs.count &&
-                std::equal(pairs.data, pairs.data + pairs.count, seen.pairs.begin(), seen.pairs.end(), isPair),
-            "the candidates that are found are those that are streamed");
     checked(allpairs_elements_edges(elements, maybeNull(&pairs)));
   }
 

@@ -68,6 +68,9 @@ struct CSearch {
     const allpairs_status streamed = stream({see, &seen, batch});
     require(counted == streamed, "counting and streaming succeed or fail alike");
     require(counted != ALLPAIRS_OK || count == seen.pairs.size(), "as many pairs are streamed as are counted");
+    if (search != nullptr && set != nullptr) {
+      require(statistics().pairs == (counted == ALLPAIRS_OK ? count : 0), "statistics count the pairs that are given");
+    }
     allpairs_pairs* const into = givesNull ? nullptr : &found;
     const allpairs_status status =
         checked(other == nullptr ? allpairs_find(search, set, into) : allpairs_find_between(search, set, other, into));
@@ -79,6 +82,13 @@ struct CSearch {
     if (count == 0) return;
     Seen first{.pairs = {}, .most = 1};
     require(stream({see, &first, 0}) == ALLPAIRS_STOPPED, "a visitor stops the search");
+  }
+
+  [[nodiscard]] allpairs_overlap_statistics statistics() const {
+    allpairs_overlap_statistics result{};
+    result.struct_size = sizeof(result);
+    require(checked(allpairs_search_statistics(search, &result)) == ALLPAIRS_OK, "a search has statistics");
+    return result;
   }
 
   [[nodiscard]] allpairs_status stream(const allpairs_visitor& visitor) const {
@@ -135,6 +145,20 @@ struct CSearch {
             "the caller's memory has the rows that are found");
   }
 };
+
+/// Finding, counting and streaming candidates agree; false if there are none to compare.
+inline bool compareCandidates(allpairs_elements* elements, allpairs_candidates kind) {
+  std::uint64_t count = 0;
+  Seen seen;
+  allpairs_pairs pairs{};
+  if (checked(allpairs_elements_count(elements, kind, &count)) != ALLPAIRS_OK) return false;
+  require(checked(allpairs_elements_stream(elements, kind, {see, &seen, 0})) == ALLPAIRS_OK, "candidates are streamed");
+  require(checked(allpairs_elements_find(elements, kind, &pairs)) == ALLPAIRS_OK, "candidates are found");
+  require(count == pairs.count &&
+              std::equal(pairs.data, pairs.data + pairs.count, seen.pairs.begin(), seen.pairs.end(), isPair),
+          "the candidates that are found are those that are streamed");
+  return true;
+}
 
 /// Finding, counting and listing in worlds agree.
 inline void compareWorlds(allpairs_search* search, const allpairs_worlds& worlds) {

@@ -7,6 +7,7 @@
 struct allpairs_elements {
   std::unique_ptr<allpairs::c::CallerMemory> memory;
   std::unique_ptr<allpairs::Executor> executor;
+  std::unique_ptr<allpairs::c::CallerStop> stop;
   allpairs::elements::ElementCandidates candidates;
 };
 
@@ -34,14 +35,13 @@ CandidateKind kindOf(int kind) {
   throw InvalidArgument("no kind of candidates " + std::to_string(kind));
 }
 
-CandidateOptions optionsOf(const allpairs_elements_options& given, Executor* executor, CallerMemory* memory) {
+/// All but what the handle owns.
+CandidateOptions optionsOf(const allpairs_elements_options& given) {
   CandidateOptions options;
   options.distance = given.distance;
   options.withinMeshes = !given.skip_within;
   options.betweenMeshes = !given.skip_between;
   options.order = orderOf(numberIn(given.order));
-  options.executor = executor;
-  options.memory = memory;
   return options;
 }
 
@@ -82,9 +82,13 @@ allpairs_status allpairs_elements_create(const allpairs_mesh* meshes, size_t cou
     const allpairs_elements_options given = known(options);
     std::unique_ptr<allpairs::Executor> executor = executorFor(given.threads);
     std::unique_ptr<CallerMemory> memory = memoryOf(given.memory);
-    allpairs::elements::ElementCandidates made(topologyOf(requiredSpan(meshes, count, "meshes")),
-                                               optionsOf(given, executor.get(), memory.get()));
-    allpairs_elements handle{std::move(memory), std::move(executor), std::move(made)};
+    std::unique_ptr<CallerStop> stop = stopOf(given);
+    allpairs::elements::CandidateOptions settings = optionsOf(given);
+    settings.executor = executor.get();
+    settings.memory = memory.get();
+    settings.stop = flagOf(stop);
+    allpairs::elements::ElementCandidates made(topologyOf(requiredSpan(meshes, count, "meshes")), settings);
+    allpairs_elements handle{std::move(memory), std::move(executor), std::move(stop), std::move(made)};
     result = std::make_unique<allpairs_elements>(std::move(handle)).release();
   });
 }

@@ -6,12 +6,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <exception>
 #include <memory>
 #include <memory_resource>
 #include <new>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -19,6 +21,7 @@
 #include "allpairs/BoxView.h"
 #include "allpairs/Error.h"
 #include "allpairs/Overlaps.h"
+#include "allpairs/StopFlag.h"
 #include "allpairs/World.h"
 #include "allpairs/Worlds.h"
 
@@ -48,6 +51,36 @@ class CallerMemory final : public std::pmr::memory_resource {
   allpairs_memory m_memory;
 };
 
+/// What the caller's function says of stopping.
+class CallerStop {
+ public:
+  CallerStop(allpairs_stop ask, void* context) : m_ask(ask), m_context(context) {}
+
+  bool operator()() const { return m_ask(m_context); }
+
+  [[nodiscard]] const StopFlag* flag() const noexcept { return &m_flag; }
+
+ private:
+  allpairs_stop m_ask;
+  void* m_context;
+  StopFlag m_flag{*this};
+};
+
+/// The caller's function, of options that have one, or null.
+template <class Options>
+[[nodiscard]] std::unique_ptr<CallerStop> stopOf(const Options& options) {
+  return options.stop == nullptr ? nullptr : std::make_unique<CallerStop>(options.stop, options.stop_context);
+}
+
+[[nodiscard]] inline const StopFlag* flagOf(const std::unique_ptr<CallerStop>& stop) noexcept {
+  return stop == nullptr ? nullptr : stop->flag();
+}
+
+/// The library's own name of an instruction set, which is there for ever; empty for null.
+///
+/// Bad input: a name that is none throws InvalidArgument.
+[[nodiscard]] std::string_view instructionSetOf(const char* name);
+
 /// The caller's memory, or null for the default.
 ///
 /// Bad input: one function without the other throws InvalidArgument.
@@ -55,7 +88,7 @@ class CallerMemory final : public std::pmr::memory_resource {
 
 }  // namespace allpairs::c
 
-// What C's handles point to; memory and executor first, which what follows uses to its end. NOLINTBEGIN(readability-identifier-naming): names are C's.
+// What C's handles point to; memory, executor and stop first, which what follows uses to its end. NOLINTBEGIN(readability-identifier-naming): names are C's.
 
 struct allpairs_set {
   allpairs::BoxView boxes;
@@ -64,20 +97,23 @@ struct allpairs_set {
 struct allpairs_search {
   std::unique_ptr<allpairs::c::CallerMemory> memory;
   std::unique_ptr<allpairs::Executor> executor;
+  std::unique_ptr<allpairs::c::CallerStop> stop;
   allpairs::OverlapSearch overlaps;
   allpairs_filter first{};
   allpairs_filter second{};
   std::optional<allpairs::WorldsSearch> worlds{};  ///< From the first search of worlds on.
+  allpairs::OverlapStatistics statistics{};        ///< Of the last search, of either kind; all 0 if it failed.
   std::atomic<bool> isCalled = false;
 };
 
 struct allpairs_world {
   std::unique_ptr<allpairs::c::CallerMemory> memory;
   std::unique_ptr<allpairs::Executor> executor;
+  std::unique_ptr<allpairs::c::CallerStop> stop;
   allpairs::World world;
 
   std::uint32_t queried = allpairs::kEveryWorld;  ///< The world whose boxes queries consider.
-  std::atomic<int> callingBack = 0;               ///< Calls that run and may ask the caller's accept().
+  std::atomic<int> callingBack = 0;               ///< Calls that run and may ask the caller's accept() or stop().
 
   /// What the last query of each kind gave. As a whole, so that its memory can be released by assigning another.
   struct Found {
@@ -134,6 +170,12 @@ template <class T>
 template <class T>
 [[nodiscard]] T known(const T* options);
 
+/// Writes as much of a result as the caller knows of it.
+///
+/// Bad input: as of known(), and null.
+template <class T>
+void write(T result, T* to, const char* name);
+
 /// What a filter's arrays are about: C says nothing of their length, which is that of a set.
 [[nodiscard]] FilterBits bitsOf(const allpairs_filter& filter, std::size_t boxes);
 
@@ -158,6 +200,25 @@ class SearchCall {
   allpairs_search& m_search;
 };
 
+/// Keeps the statistics of a search with its handle, where they outlive what searched; all 0 if the search throws.
+template <class Search>
+class NotedSearch {
+ public:
+  NotedSearch(allpairs_search& handle, const Search& search) : m_handle(handle), m_search(search) {
+    m_handle.statistics = {};
+  }
+  ~NotedSearch() {
+    if (std::uncaught_exceptions() == m_exceptions) m_handle.statistics = m_search.statistics();
+  }
+  NotedSearch(const NotedSearch&) = delete;
+  NotedSearch& operator=(const NotedSearch&) = delete;
+
+ private:
+  allpairs_search& m_handle;
+  const Search& m_search;
+  int m_exceptions = std::uncaught_exceptions();
+};
+
 /// Threads to run on, or null for the calling one.
 [[nodiscard]] std::unique_ptr<Executor> executorFor(std::size_t threads);
 
@@ -177,7 +238,7 @@ template <class Enumerator>
 /// away, are kept in the handle.
 inline void checkIdle(const allpairs_world& world) {
   if (world.callingBack.load(std::memory_order_relaxed) != 0) {
-    throw InvalidArgument("the world is called by its own accept");
+    throw InvalidArgument("the world is called by its own accept or stop");
   }
 }
 
@@ -186,7 +247,7 @@ inline void checkIdle(const allpairs_world& world) {
   return world->world;
 }
 
-/// A call that may ask the world's accept().
+/// A call that may ask the world's accept() or stop().
 class CallingBack {
  public:
   explicit CallingBack(allpairs_world* world, const char* name = "world")

@@ -16,7 +16,7 @@ Strategy strategyOf(int strategy) {
   throw InvalidArgument("no strategy " + std::to_string(strategy));
 }
 
-OverlapOptions optionsOf(const allpairs_options& given, Executor* executor) {
+OverlapOptions optionsOf(const allpairs_options& given, Executor* executor, const StopFlag* stop) {
   OverlapOptions options;
   options.strategy = strategyOf(numberIn(given.strategy));
   options.order = orderOf(numberIn(given.order));
@@ -28,6 +28,8 @@ OverlapOptions optionsOf(const allpairs_options& given, Executor* executor) {
     };
   }
   options.executor = executor;
+  options.stop = stop;
+  options.instructionSet = instructionSetOf(given.instruction_set);
   if (given.max_pairs != 0) options.maxPairs = given.max_pairs;
   return options;
 }
@@ -39,8 +41,10 @@ void setOptions(allpairs_search& search, const allpairs_options* options) {
     throw InvalidArgument("a search keeps the memory that it was made with; make another one");
   }
   std::unique_ptr<Executor> executor = executorFor(given.threads);
-  search.overlaps.setOptions(optionsOf(given, executor.get()));
+  std::unique_ptr<CallerStop> stop = stopOf(given);
+  search.overlaps.setOptions(optionsOf(given, executor.get(), flagOf(stop)));
   search.executor = std::move(executor);
+  search.stop = std::move(stop);
   search.first = given.first;
   search.second = given.second;
 }
@@ -87,12 +91,14 @@ class PreparedCall {
     options.filter.first = bitsOf(handle.first, required(first, "set").boxes.size());
     options.filter.second = bitsOf(handle.second, (second == nullptr ? first : second)->boxes.size());
     m_call.handle().overlaps.setOptions(std::move(options));
+    m_noted.emplace(m_call.handle(), m_call.handle().overlaps);
   }
 
   OverlapSearch* operator->() const noexcept { return &m_call.handle().overlaps; }
 
  private:
   SearchCall m_call;
+  std::optional<NotedSearch<OverlapSearch>> m_noted;
 };
 
 }  // namespace
@@ -117,7 +123,7 @@ allpairs_status allpairs_search_create(const allpairs_options* options, allpairs
     memoryOnly.memory = memory.get();
     // An atomic does not move: made where it stays.
     std::unique_ptr<allpairs_search> handle(
-        new allpairs_search{std::move(memory), nullptr, allpairs::OverlapSearch(std::move(memoryOnly))});
+        new allpairs_search{std::move(memory), nullptr, nullptr, allpairs::OverlapSearch(std::move(memoryOnly))});
     setOptions(*handle, options);
     result = handle.release();
   });
@@ -139,6 +145,13 @@ allpairs_status allpairs_search_shrink(allpairs_search* search) {
     const SearchCall call(search);
     call.handle().overlaps.shrink();
     call.handle().worlds.reset();
+  });
+}
+
+allpairs_status allpairs_search_statistics(const allpairs_search* search, allpairs_overlap_statistics* statistics) {
+  return guarded([&] {
+    const allpairs::OverlapStatistics& last = required(search, "search").statistics;
+    write({0, last.pairs, last.boxTests, last.groupTests, last.exactTests}, statistics, "statistics");
   });
 }
 

@@ -83,6 +83,8 @@ allpairs_status noteFailure() noexcept {
     return note(ALLPAIRS_INVALID_BOX, error.what(), error.index());
   } catch (const LimitExceeded& error) {
     return note(ALLPAIRS_LIMIT_EXCEEDED, error.what(), error.count());
+  } catch (const allpairs::Stopped& error) {
+    return note(ALLPAIRS_STOPPED, error.what());
   } catch (const Error& error) {
     return note(ALLPAIRS_INVALID_ARGUMENT, error.what());
   } catch (const Stopped&) {
@@ -98,26 +100,52 @@ allpairs_status noteFailure() noexcept {
   }
 }
 
+namespace {
+
+/// The number of bytes of a structure that the caller knows.
+template <class T>
+std::size_t knownSize(const T& given) {
+  if (given.struct_size < sizeof(given.struct_size) || given.struct_size > sizeof(T)) {
+    throw InvalidArgument("struct_size is " + std::to_string(given.struct_size) + "; this library knows up to " +
+                          std::to_string(sizeof(T)));
+  }
+  if (given.struct_size % alignof(T) != 0) {  // ends within a field
+    throw InvalidArgument("struct_size is " + std::to_string(given.struct_size) + "; no such structure has that size");
+  }
+  return given.struct_size;
+}
+
+}  // namespace
+
 template <class T>
 T known(const T* options) {
   T result{};
-  if (options == nullptr) return result;
-  if (options->struct_size < sizeof(options->struct_size) || options->struct_size > sizeof(T)) {
-    throw InvalidArgument("struct_size is " + std::to_string(options->struct_size) + "; this library knows up to " +
-                          std::to_string(sizeof(T)));
-  }
-  if (options->struct_size % alignof(T) != 0) {  // ends within a field
-    throw InvalidArgument("struct_size is " + std::to_string(options->struct_size) +
-                          "; no such structure has that size");
-  }
-  std::memcpy(&result, options, options->struct_size);
+  if (options != nullptr) std::memcpy(&result, options, knownSize(*options));
   return result;
+}
+
+template <class T>
+void write(T result, T* to, const char* name) {
+  result.struct_size = knownSize(required(to, name));
+  std::memcpy(to, &result, result.struct_size);
 }
 
 template allpairs_options known(const allpairs_options* options);
 template allpairs_world_options known(const allpairs_world_options* options);
 template allpairs_worlds known(const allpairs_worlds* options);
 template allpairs_elements_options known(const allpairs_elements_options* options);
+template void write(allpairs_overlap_statistics result, allpairs_overlap_statistics* to, const char* name);
+template void write(allpairs_step_statistics result, allpairs_step_statistics* to, const char* name);
+
+std::string_view instructionSetOf(const char* name) {
+  if (name == nullptr) return {};
+  std::string known;
+  for (const std::string_view each : instructionSets()) {
+    if (each == name) return each;
+    known += (known.empty() ? "" : ", ") + std::string(each);
+  }
+  throw InvalidArgument("no instruction set '" + std::string(name) + "' here; there are: " + known);
+}
 
 Order orderOf(int order) {
   switch (order) {
@@ -164,5 +192,10 @@ uint64_t allpairs_error_index(void) {
 }
 
 const char* allpairs_version(void) { return ALLPAIRS_VERSION; }
+
+const char* allpairs_instruction_set(size_t index) {
+  const allpairs::Span<const std::string_view> names = allpairs::instructionSets();
+  return index < names.size() ? names[index].data() : nullptr;  // literals, which end with a zero
+}
 
 // NOLINTEND(readability-identifier-naming)

@@ -18,12 +18,12 @@ allpairs_step stepOf(const StepResult& found) {
   return {c::toC(found.pairs), c::toC(found.began), c::toC(found.persisted), c::toC(found.ended)};
 }
 
-WorldOptions optionsOf(const allpairs_world_options& given, Executor* executor, CallerMemory* memory) {
+/// All but what the handle owns.
+WorldOptions optionsOf(const allpairs_world_options& given) {
   WorldOptions options;
   options.distance = given.distance;
   options.order = orderOf(numberIn(given.order));
-  options.executor = executor;
-  options.memory = memory;
+  options.instructionSet = instructionSetOf(given.instruction_set);
   if (given.accept != nullptr) {
     options.accept = [accept = given.accept, context = given.accept_context](BoxId a, BoxId b) {
       return accept(context, a, b);
@@ -51,9 +51,15 @@ allpairs_status allpairs_world_create(const allpairs_world_options* options, all
     const allpairs_world_options given = known(options);
     std::unique_ptr<allpairs::Executor> executor = executorFor(given.threads);
     std::unique_ptr<CallerMemory> memory = memoryOf(given.memory);
-    allpairs::World made(optionsOf(given, executor.get(), memory.get()));
+    std::unique_ptr<CallerStop> stop = stopOf(given);
+    allpairs::WorldOptions settings = optionsOf(given);
+    settings.executor = executor.get();
+    settings.memory = memory.get();
+    settings.stop = flagOf(stop);
+    allpairs::World made(std::move(settings));
     // An atomic does not move: made where it stays.
-    std::unique_ptr<allpairs_world> handle(new allpairs_world{std::move(memory), std::move(executor), std::move(made)});
+    std::unique_ptr<allpairs_world> handle(
+        new allpairs_world{std::move(memory), std::move(executor), std::move(stop), std::move(made)});
     result = handle.release();
   });
 }
@@ -67,6 +73,10 @@ allpairs_status allpairs_world_shrink(allpairs_world* world) {
     worldOf(world).shrink();
     world->found = {};
   });
+}
+
+allpairs_status allpairs_world_reserve(allpairs_world* world, size_t boxes) {
+  return guarded([&] { worldOf(world).reserve(boxes); });
 }
 
 allpairs_status allpairs_world_add(allpairs_world* world, const allpairs_set* boxes,
@@ -98,6 +108,16 @@ allpairs_status allpairs_world_move_swept(allpairs_world* world, allpairs_ids id
                                           const allpairs_set* ends) {
   return guarded(
       [&] { worldOf(world).moveSwept(idsOf(ids), required(starts, "starts").boxes, required(ends, "ends").boxes); });
+}
+
+allpairs_status allpairs_world_move_swept_by(allpairs_world* world, allpairs_ids ids, const allpairs_set* starts,
+                                             const allpairs_velocities* velocities) {
+  return guarded([&] {
+    const allpairs::BoxView& set = required(starts, "starts").boxes;
+    const allpairs_velocities& given = required(velocities, "velocities");
+    const std::span<const double> rows = requiredSpan(given.data, 3 * set.size(), "velocities.data");
+    worldOf(world).moveSwept(idsOf(ids), set, rows, given.duration);
+  });
 }
 
 allpairs_status allpairs_world_remove(allpairs_world* world, allpairs_ids ids) {
@@ -147,6 +167,8 @@ bool allpairs_world_contains(const allpairs_world* world, uint32_t id) {
   return world != nullptr && world->world.contains(id);
 }
 
+uint32_t allpairs_world_id_bound(const allpairs_world* world) { return world == nullptr ? 0 : world->world.idBound(); }
+
 allpairs_status allpairs_world_box(const allpairs_world* world, uint32_t id, double* bounds) {
   return guarded([&] {
     const allpairs::Box box = required(world, "world").world.box(id);
@@ -190,10 +212,18 @@ allpairs_status allpairs_world_step(allpairs_world* world, allpairs_step* step) 
   });
 }
 
+allpairs_status allpairs_world_statistics(const allpairs_world* world, allpairs_step_statistics* statistics) {
+  return guarded([&] {
+    const allpairs::WorldStatistics& last = required(world, "world").world.statistics();
+    write({0, last.boxTests, last.groupTests, last.exactTests, last.changed, last.rebuilds, last.joinedAll}, statistics,
+          "statistics");
+  });
+}
+
 allpairs_status allpairs_world_result_of(allpairs_world* world, uint32_t number, allpairs_step* step) {
   return guarded([&] {
     allpairs_step& result = required(step, "step");
-    result = stepOf(worldOf(world).result(number));
+    result = stepOf(CallingBack(world).world().result(number));
   });
 }
 

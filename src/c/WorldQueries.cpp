@@ -80,7 +80,7 @@ allpairs_status allpairs_world_find_overlapping(allpairs_world* world, const dou
   return guarded([&] {
     allpairs_ids& result = required(ids, "ids");
     auto& found = required(world, "world").found.ids;
-    found = worldOf(world).findOverlapping(boxOf(&required(box, "box")), filterOf(world, filter));
+    found = CallingBack(world).world().findOverlapping(boxOf(&required(box, "box")), filterOf(world, filter));
     result = {found.data(), found.size()};
   });
 }
@@ -89,7 +89,7 @@ allpairs_status allpairs_world_find_first(allpairs_world* world, const allpairs_
                                           const allpairs_query_filter* filter, allpairs_hit* hit) {
   return guarded([&] {
     allpairs_hit& result = required(hit, "hit");
-    result = toC(worldOf(world).findFirst(rayOf(required(ray, "ray")), filterOf(world, filter)));
+    result = toC(CallingBack(world).world().findFirst(rayOf(required(ray, "ray")), filterOf(world, filter)));
   });
 }
 
@@ -98,7 +98,7 @@ allpairs_status allpairs_world_find_all(allpairs_world* world, const allpairs_ra
   return guarded([&] {
     allpairs_hits& result = required(hits, "hits");
     auto& found = required(world, "world").found.hits;
-    found = worldOf(world).findAll(rayOf(required(ray, "ray")), filterOf(world, filter));
+    found = CallingBack(world).world().findAll(rayOf(required(ray, "ray")), filterOf(world, filter));
     result = toC(found);
   });
 }
@@ -107,7 +107,7 @@ allpairs_status allpairs_world_sweep_first(allpairs_world* world, const allpairs
                                            const allpairs_query_filter* filter, allpairs_hit* hit) {
   return guarded([&] {
     allpairs_hit& result = required(hit, "hit");
-    result = toC(worldOf(world).findFirst(sweepOf(required(sweep, "sweep")), filterOf(world, filter)));
+    result = toC(CallingBack(world).world().findFirst(sweepOf(required(sweep, "sweep")), filterOf(world, filter)));
   });
 }
 
@@ -116,7 +116,7 @@ allpairs_status allpairs_world_sweep_all(allpairs_world* world, const allpairs_s
   return guarded([&] {
     allpairs_hits& result = required(hits, "hits");
     auto& found = required(world, "world").found.hits;
-    found = worldOf(world).findAll(sweepOf(required(sweep, "sweep")), filterOf(world, filter));
+    found = CallingBack(world).world().findAll(sweepOf(required(sweep, "sweep")), filterOf(world, filter));
     result = toC(found);
   });
 }
@@ -127,7 +127,7 @@ allpairs_status allpairs_world_find_nearest(allpairs_world* world, const allpair
     allpairs_neighbors& result = required(neighbors, "neighbors");
     const allpairs_nearest& wanted = required(nearest, "nearest");
     auto& found = required(world, "world").found.neighbors;
-    found = worldOf(world).findNearest(vectorOf(wanted.point), wanted.count, filterOf(world, filter));
+    found = CallingBack(world).world().findNearest(vectorOf(wanted.point), wanted.count, filterOf(world, filter));
     result = toC(found);
   });
 }
@@ -137,14 +137,15 @@ allpairs_status allpairs_world_find_overlapping_many(allpairs_world* world, cons
   return guarded([&] {
     allpairs_id_lists& result = required(lists, "lists");
     auto& found = required(world, "world").found.idLists;
-    found = worldOf(world).findOverlapping(required(boxes, "boxes").boxes, filterOf(world, filter));
+    found = CallingBack(world).world().findOverlapping(required(boxes, "boxes").boxes, filterOf(world, filter));
     result = toC<allpairs_id_lists>(found);
   });
 }
 
 allpairs_status allpairs_world_find_first_many(allpairs_world* world, allpairs_rays rays,
                                                const allpairs_query_filter* filter, allpairs_hit* hits) {
-  return guarded([&] { worldOf(world).findFirst(raysOf(rays), hitsOf(hits, rays.count), filterOf(world, filter)); });
+  return guarded(
+      [&] { CallingBack(world).world().findFirst(raysOf(rays), hitsOf(hits, rays.count), filterOf(world, filter)); });
 }
 
 allpairs_status allpairs_world_find_all_many(allpairs_world* world, allpairs_rays rays,
@@ -152,15 +153,16 @@ allpairs_status allpairs_world_find_all_many(allpairs_world* world, allpairs_ray
   return guarded([&] {
     allpairs_hit_lists& result = required(lists, "lists");
     auto& found = required(world, "world").found.hitLists;
-    found = worldOf(world).findAll(raysOf(rays), filterOf(world, filter));
+    found = CallingBack(world).world().findAll(raysOf(rays), filterOf(world, filter));
     result = toC<allpairs_hit_lists>(found);
   });
 }
 
 allpairs_status allpairs_world_sweep_first_many(allpairs_world* world, allpairs_sweeps sweeps,
                                                 const allpairs_query_filter* filter, allpairs_hit* hits) {
-  return guarded(
-      [&] { worldOf(world).findFirst(sweepsOf(sweeps), hitsOf(hits, sweeps.count), filterOf(world, filter)); });
+  return guarded([&] {
+    CallingBack(world).world().findFirst(sweepsOf(sweeps), hitsOf(hits, sweeps.count), filterOf(world, filter));
+  });
 }
 
 allpairs_status allpairs_world_sweep_all_many(allpairs_world* world, allpairs_sweeps sweeps,
@@ -168,7 +170,7 @@ allpairs_status allpairs_world_sweep_all_many(allpairs_world* world, allpairs_sw
   return guarded([&] {
     allpairs_hit_lists& result = required(lists, "lists");
     auto& found = required(world, "world").found.hitLists;
-    found = worldOf(world).findAll(sweepsOf(sweeps), filterOf(world, filter));
+    found = CallingBack(world).world().findAll(sweepsOf(sweeps), filterOf(world, filter));
     result = toC<allpairs_hit_lists>(found);
   });
 }
@@ -180,7 +182,7 @@ allpairs_status allpairs_world_find_nearest_many(allpairs_world* world, const al
     const allpairs_nearest_many& wanted = required(nearest, "nearest");
     const auto points = sameAs<std::array<double, 3>>(wanted.points, wanted.point_count, "nearest.points");
     auto& found = required(world, "world").found.neighborLists;
-    found = worldOf(world).findNearest(points, wanted.count, filterOf(world, filter));
+    found = CallingBack(world).world().findNearest(points, wanted.count, filterOf(world, filter));
     result = toC<allpairs_neighbor_lists>(found);
   });
 }

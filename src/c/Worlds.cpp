@@ -55,6 +55,7 @@ class WorldsCall {
     } else {
       handle.worlds.emplace(std::move(options));
     }
+    m_noted.emplace(handle, *handle.worlds);
   }
 
   [[nodiscard]] WorldsSearch& search() const { return *m_call.handle().worlds; }
@@ -62,6 +63,7 @@ class WorldsCall {
   SearchCall m_call;
   Worlds m_worlds;
   const BoxView* m_shared;
+  std::optional<NotedSearch<WorldsSearch>> m_noted;
 };
 
 }  // namespace

@@ -173,13 +173,24 @@ TEST(FailedAllocationInC, OfWorldsChanges) {
   for (allpairs_properties& p : properties) p.margin = 0.25;
   allpairs_step step;
   check([&](Handles& h) { return allpairs_world_add(h.world, h.other, nullptr, added.data()); });
+  check([&](Handles& h) { return allpairs_world_reserve(h.world, 5 * kBoxes); });
   check([&](Handles& h) { return allpairs_world_move_swept(h.world, {h.ids.data(), kBoxes}, h.set, h.other); });
+  const allpairs_velocities velocities{Handles::otherRows().data(), 0.1};
+  check([&](Handles& h) { return allpairs_world_move_swept_by(h.world, {h.ids.data(), kBoxes}, h.set, &velocities); });
   check([&](Handles& h) { return allpairs_world_set_properties(h.world, h.some(), properties.data()); });
   check([&](Handles& h) { return allpairs_world_clear(h.world); });
   check([&](Handles& h) {
     const allpairs_status status = allpairs_world_move(h.world, {h.ids.data(), kBoxes}, h.set);
     return status == ALLPAIRS_OK ? allpairs_world_step(h.world, &step) : status;
   });
+}
+
+/// New settings are taken as a whole or not at all.
+TEST(FailedAllocationInC, OfSettings) {
+  allpairs_options options = allpairs_default_options();
+  options.distance = 0.5;
+  options.stop = [](void*) { return false; };
+  check([&](Handles& h) { return allpairs_search_set_options(h.search, &options); });
 }
 
 TEST(FailedAllocationInC, OfRemovingBoxes) {
@@ -258,6 +269,16 @@ TEST(FailedAllocationInC, OfHandles) {
                               allpairs_set_destroy);
   checkCreation<allpairs_search>([](auto** h) { return allpairs_search_create(nullptr, h); }, allpairs_search_destroy);
   checkCreation<allpairs_world>([](auto** h) { return allpairs_world_create(nullptr, h); }, allpairs_world_destroy);
+  allpairs_options options = allpairs_default_options();
+  options.stop = [](void*) { return false; };
+  options.instruction_set = "SCALAR";
+  checkCreation<allpairs_search>([&](auto** h) { return allpairs_search_create(&options, h); },
+                                 allpairs_search_destroy);
+  allpairs_world_options ofWorld{};
+  ofWorld.struct_size = sizeof ofWorld;
+  ofWorld.stop = options.stop;
+  ofWorld.instruction_set = "SCALAR";
+  checkCreation<allpairs_world>([&](auto** h) { return allpairs_world_create(&ofWorld, h); }, allpairs_world_destroy);
   checkCreation<allpairs_elements>([&](auto** h) { return allpairs_elements_create(&mesh, 1, nullptr, h); },
                                    allpairs_elements_destroy);
 }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <math.h>
 #include <string.h>
 
 #include "Check.h"
@@ -175,6 +176,54 @@ static void sweptBoxesHoldTheirWay(allpairs_world* world) {
   allpairs_set_destroy(to);
 }
 
+/// Boxes that move by velocities are where start + velocity * duration is, in double.
+static void velocitiesSweepBoxes(void) {
+  enum { kMany = 30 };
+  double velocities[3 * kMany], ends[6 * kMany], bounds[6], expected[6];
+  uint32_t seed = 3, given[kMany], sweptIds[kMany];
+  allpairs_world *world = NULL, *swept = NULL;
+  for (size_t i = 0; i < 3 * (size_t)kMany; ++i) velocities[i] = checkRandom(&seed, 1000) / 7.0 - 70;
+  for (size_t i = 0; i < 6 * (size_t)kMany; ++i) ends[i] = rows[i] + velocities[i / 6 * 3 + i % 3] * 0.3;
+  allpairs_set *from = setOf(rows, kMany), *to = setOf(ends, kMany);
+  const allpairs_ids all = {given, kMany};
+  const allpairs_velocities motion = {velocities, 0.3};
+  ALLPAIRS_CHECK(allpairs_world_create(NULL, &world) == ALLPAIRS_OK &&
+                 allpairs_world_create(NULL, &swept) == ALLPAIRS_OK);
+  ALLPAIRS_CHECK(allpairs_world_add(world, from, NULL, given) == ALLPAIRS_OK);
+  ALLPAIRS_CHECK(allpairs_world_add(swept, from, NULL, sweptIds) == ALLPAIRS_OK);
+  ALLPAIRS_CHECK(allpairs_world_move_swept_by(world, all, from, &motion) == ALLPAIRS_OK);
+  ALLPAIRS_CHECK(allpairs_world_move_swept(swept, all, from, to) == ALLPAIRS_OK);
+  for (uint32_t i = 0; i < kMany; ++i) {
+    ALLPAIRS_CHECK(allpairs_world_box(world, i, bounds) == ALLPAIRS_OK);
+    ALLPAIRS_CHECK(allpairs_world_box(swept, i, expected) == ALLPAIRS_OK);
+    ALLPAIRS_CHECK(memcmp(bounds, expected, sizeof bounds) == 0);
+  }
+
+  // What is refused changes nothing.
+  allpairs_velocities wrong = {velocities, INFINITY};
+  const allpairs_ids fewer = {given, kMany - 1}, none = {given, SIZE_MAX / 3 + kMany};
+  ALLPAIRS_CHECK(allpairs_world_move_swept_by(world, all, from, &wrong) == ALLPAIRS_INVALID_ARGUMENT);
+  ALLPAIRS_CHECK(strstr(allpairs_error_message(), "the duration is not finite") != NULL);
+  wrong.duration = 1;
+  velocities[3 * 4 + 2] = NAN;
+  ALLPAIRS_CHECK(allpairs_world_move_swept_by(world, all, from, &wrong) == ALLPAIRS_INVALID_BOX);
+  ALLPAIRS_CHECK(allpairs_error_index() == 4 && strstr(allpairs_error_message(), "not finite") != NULL);
+  wrong.data = NULL;
+  ALLPAIRS_CHECK(allpairs_world_move_swept_by(world, all, from, &wrong) == ALLPAIRS_INVALID_ARGUMENT);
+  ALLPAIRS_CHECK(strstr(allpairs_error_message(), "velocities.data is null") != NULL);
+  ALLPAIRS_CHECK(allpairs_world_move_swept_by(world, fewer, from, &motion) == ALLPAIRS_INVALID_ARGUMENT);
+  ALLPAIRS_CHECK(allpairs_world_move_swept_by(world, none, from, &motion) == ALLPAIRS_INVALID_ARGUMENT);
+  ALLPAIRS_CHECK(allpairs_world_move_swept_by(world, all, from, NULL) == ALLPAIRS_INVALID_ARGUMENT);
+  ALLPAIRS_CHECK(allpairs_world_move_swept_by(world, all, NULL, &motion) == ALLPAIRS_INVALID_ARGUMENT);
+  ALLPAIRS_CHECK(allpairs_world_move_swept_by(NULL, all, from, &motion) == ALLPAIRS_INVALID_ARGUMENT);
+  ALLPAIRS_CHECK(allpairs_world_box(world, kMany - 1, bounds) == ALLPAIRS_OK);
+  ALLPAIRS_CHECK(memcmp(bounds, expected, sizeof bounds) == 0);
+  allpairs_world_destroy(world);
+  allpairs_world_destroy(swept);
+  allpairs_set_destroy(from);
+  allpairs_set_destroy(to);
+}
+
 static void checkPairs(allpairs_pairs pairs, const allpairs_pair* expected, size_t count) {
   ALLPAIRS_CHECK(pairs.count == count);
   ALLPAIRS_CHECK(count == 0 || !memcmp(pairs.data, expected, count * sizeof *expected));
@@ -333,6 +382,7 @@ int main(void) {
   checkQueries(world);
   propertiesAreRead();
   whatAWorldHoldsCanBeAsked();
+  velocitiesSweepBoxes();
   ids[0] = 1;
   sweptBoxesHoldTheirWay(world);
   allpairs_world_destroy(world);
