@@ -29,7 +29,7 @@ from ._partition import (
 )
 from ._scene import Detection, Model, Remark, Scene, detect, load
 from ._search import batches, batches_between, count, count_between, instruction_sets, overlaps, overlaps_between
-from ._world import EVERY_WORLD, NO_BOX, Step, World
+from ._world import EVERY_WORLD, NO_BOX, Step, World, WorldStatistics
 from ._worlds import overlaps_in_worlds
 
 __all__ = [
@@ -49,6 +49,7 @@ __all__ = [
     "Scene",
     "Step",
     "World",
+    "WorldStatistics",
     "__version__",
     "batches",
     "batches_between",

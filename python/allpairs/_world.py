@@ -29,6 +29,24 @@ class Step(NamedTuple):
     """Pairs of the last step that no longer exist; their boxes may have been removed."""
 
 
+class WorldStatistics(NamedTuple):
+    """What the last step of a `World` did, and all its steps."""
+
+    box_tests: int
+    """Tests of two boxes."""
+    group_tests: int
+    """Tests of the bounds of two groups, or of a box and a group."""
+    exact_tests: int
+    """Candidates of the test in float32 that were tested again in float64."""
+    changed: int
+    """Boxes that were added, moved, removed or given other properties."""
+    joined_all: bool
+    """Whether the step joined all boxes, instead of only the changed ones with all."""
+    rebuilds: int
+    """Full rebuilds of a hierarchy up to the last step, by steps and queries; with world numbers, how often a world's
+    boxes were put in order."""
+
+
 #: The properties that are integers, in the order in which _core.World.state() has them.
 _LABELS = ("category", "mask", "group", "static", "world")
 
@@ -225,6 +243,22 @@ class World(WorldQueries):
         chosen = _arguments.ids(ids)
         self._core.set_properties(chosen, _properties(len(chosen), locals()))
 
+    def reserve(self, boxes: int) -> None:
+        """Reserves memory for that many boxes in all, so that adding them allocates little.
+
+        Parameters
+        ----------
+        boxes : int
+        """
+        self._core.reserve(_arguments.whole("boxes", boxes, most=NO_BOX))
+
+    def shrink(self) -> None:
+        """Releases the memory that neither the boxes nor the pairs of the last step need.
+
+        The next step or query rebuilds the hierarchy of the boxes. Arrays that calls have returned are not concerned.
+        """
+        self._core.shrink()
+
     def __repr__(self) -> str:
         return f"World({len(self)} boxes)"
 
@@ -274,6 +308,13 @@ class World(WorldQueries):
     def step(self) -> Step:
         """The current pairs of the boxes, and the changes since the last step."""
         return Step(*map(np.asarray, self._core.step()))
+
+    @property
+    def statistics(self) -> WorldStatistics:
+        """What the last step tested, all 0 before the first one; it depends on the processor. A step that was interrupted or
+        failed leaves numbers that mean nothing, and so does making a copy."""
+        last = self._core.statistics()
+        return WorldStatistics(*(getattr(last, name) for name in WorldStatistics._fields))
 
     def result(self, world: int) -> Step:
         """The lists of the last step for one world.

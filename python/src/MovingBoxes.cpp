@@ -233,6 +233,14 @@ void MovingBoxes::setProperties(const py::buffer& ids, const Properties& propert
   });
 }
 
+void MovingBoxes::reserve(std::size_t boxes) {
+  alone([boxes](World& world) { world.reserve(boxes); });
+}
+
+void MovingBoxes::shrink() {
+  alone([](World& world) { world.shrink(); });
+}
+
 std::size_t MovingBoxes::size() {
   return alone([](World& world) { return world.size(); });
 }
@@ -298,6 +306,10 @@ py::tuple MovingBoxes::resultOf(std::uint32_t world) {
   Lists lists;
   search(0, [&](World& worlds) { lists = copyOf(worlds.result(world), m_stop.flag()); });
   return std::move(lists).arrays();
+}
+
+WorldStatistics MovingBoxes::statistics() {
+  return alone([](World& world) { return world.statistics(); });
 }
 
 std::unique_ptr<PairArray> MovingBoxes::overlapping(const Boxes& boxes, const QueryFilter& filter) {

@@ -57,6 +57,10 @@ class MovingBoxes {
   void clear();
   void setProperties(const pybind11::buffer& ids, const Properties& properties);
 
+  /// Memory for that many boxes in all.
+  void reserve(std::size_t boxes);
+  void shrink();
+
   [[nodiscard]] std::size_t size();
   [[nodiscard]] bool contains(BoxId id);
 
@@ -76,6 +80,9 @@ class MovingBoxes {
 
   /// The same of the last step, for one world.
   [[nodiscard]] pybind11::tuple resultOf(std::uint32_t world);
+
+  /// Of the last step.
+  [[nodiscard]] WorldStatistics statistics();
 
   /// In each row the index of a query and the id of a box that it overlaps.
   [[nodiscard]] std::unique_ptr<PairArray> overlapping(const Boxes& boxes, const QueryFilter& filter);

@@ -40,6 +40,13 @@ void bindWorld(py::module_& module) {
   bindProperties(module);
   module.attr("NO_BOX") = kNoBox;
   module.attr("EVERY_WORLD") = kEveryWorld;
+  py::class_<WorldStatistics>(module, "WorldStatistics")
+      .def_readonly("box_tests", &WorldStatistics::boxTests)
+      .def_readonly("group_tests", &WorldStatistics::groupTests)
+      .def_readonly("exact_tests", &WorldStatistics::exactTests)
+      .def_readonly("changed", &WorldStatistics::changed)
+      .def_readonly("joined_all", &WorldStatistics::joinedAll)
+      .def_readonly("rebuilds", &WorldStatistics::rebuilds);
   py::class_<MovingBoxes>(module, "World")
       .def(py::init<double, Order, std::size_t>())
       .def("add", &MovingBoxes::add)
@@ -48,6 +55,8 @@ void bindWorld(py::module_& module) {
       .def("remove", &MovingBoxes::remove)
       .def("clear", &MovingBoxes::clear)
       .def("set_properties", &MovingBoxes::setProperties)
+      .def("reserve", &MovingBoxes::reserve)
+      .def("shrink", &MovingBoxes::shrink)
       .def("size", &MovingBoxes::size)
       .def("contains", &MovingBoxes::contains)
       .def("ids", &MovingBoxes::ids)
@@ -56,6 +65,7 @@ void bindWorld(py::module_& module) {
       .def("state", &MovingBoxes::state)
       .def("step", &MovingBoxes::step)
       .def("result_of", &MovingBoxes::resultOf)
+      .def("statistics", &MovingBoxes::statistics)
       .def("overlapping", &MovingBoxes::overlapping)
       .def("first_hits", &MovingBoxes::firstHits)
       .def("all_hits", &MovingBoxes::allHits)

@@ -104,6 +104,7 @@ def test_a_world_is_asked(and_later):
         lambda world: world.boxes(np.arange(300)),
         lambda world: tuple(world.properties(np.arange(300)).values()),
         lambda world: world.overlaps_between(world),
+        lambda world: world.statistics,
     ):
         check(and_later, a_world, call)
 
@@ -117,6 +118,8 @@ def test_a_change_of_a_world_is_made_as_a_whole_or_not_at_all(and_later):
         lambda world: world.move_swept(some, np.hstack([lower, upper]), (lower + 1, upper + 1)),
         lambda world: world.remove(some),
         lambda world: world.clear(),
+        lambda world: world.reserve(1000),
+        lambda world: (world.shrink(), world.step()),
     ):
         k, happened = 1, True
         while happened:

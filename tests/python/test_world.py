@@ -107,6 +107,75 @@ def test_a_property_that_is_not_set_stays():
     assert world.__getstate__()["margin"].tolist() == given["margin"]
 
 
+def test_a_world_says_what_its_last_step_did():
+    world = allpairs.World()
+    assert world.statistics == (0, 0, 0, 0, False, 0)
+    ids = world.add(np.zeros((20, 6)))
+    assert world.statistics.changed == 0  # no step yet
+    world.step()
+    assert isinstance(world.statistics, allpairs.WorldStatistics)
+    assert (world.statistics.changed, world.statistics.joined_all) == (20, True)
+    assert world.statistics.box_tests >= 190
+    world.move(ids[:3], np.ones((3, 6)))
+    world.remove(ids[10:])
+    world.step()
+    assert world.statistics.changed == 13
+    world.step()
+    assert world.statistics[:4] == (0, 0, 0, 0)
+    assert world.statistics._fields == ("box_tests", "group_tests", "exact_tests", "changed", "joined_all", "rebuilds")
+    with pytest.raises(AttributeError):
+        world.statistics = None
+
+
+def test_a_world_that_is_shrunk_or_has_room_gives_the_same():
+    rng = np.random.default_rng(7)
+    lower = rng.integers(0, 30, (500, 3)).astype(np.float64)
+    boxes = np.hstack([lower, lower + 3])
+    world, other = allpairs.World(), allpairs.World()
+    other.reserve(2000)
+    assert len(other) == 0
+    for each in (world, other):
+        each.add(boxes)
+    for step in range(6):
+        some = rng.choice(300, 50, replace=False)
+        for each in (world, other):
+            each.move(some, boxes[some[::-1]])
+        if step % 2:
+            other.shrink()
+        elif step == 4:
+            other.reserve(0)
+        for found, expected in zip(other.step(), world.step()):
+            np.testing.assert_array_equal(found, expected)
+        if step == 2:
+            kept = other.step().pairs
+            before = kept.copy()
+            other.shrink()
+            np.testing.assert_array_equal(kept, before)
+            np.testing.assert_array_equal(other.result(0).pairs, world.step().pairs)
+    # Ids above the highest one in use are free at once.
+    world.remove(np.arange(100, 500))
+    world.step()
+    world.shrink()
+    assert world.add(np.zeros((2, 6))).tolist() == [100, 101]
+
+
+@pytest.mark.parametrize(
+    "boxes, error, message",
+    [
+        (-1, allpairs.InvalidArgument, "boxes is -1; it is at least 0"),
+        (2**32, allpairs.InvalidArgument, "boxes is 4294967296; it is at most 4294967295"),
+        (2**70, allpairs.InvalidArgument, "boxes is a large integer|boxes is 1180591620717411303424"),
+        (1.5, TypeError, "boxes is 1.5; it takes an integer"),
+        ("3", TypeError, "boxes is '3'; it takes an integer"),
+        (None, TypeError, "boxes is None; it takes an integer"),
+    ],
+)
+def test_room_is_a_number_of_boxes(boxes, error, message):
+    world = allpairs.World()
+    with pytest.raises(error, match=message):
+        world.reserve(boxes)
+
+
 def test_a_world_lists_its_boxes():
     world = allpairs.World()
     assert world.ids().tolist() == []
