@@ -348,6 +348,19 @@ def _uint32(name: str, value: npt.ArrayLike) -> npt.NDArray[np.uint32]:
     return contiguous(array, np.uint32)
 
 
+def uint64(name: str, array: npt.NDArray[Any]) -> npt.NDArray[np.uint64]:
+    """A row of integers as uint64, the same memory where they are of 64 bits."""
+    if array.size == 0:
+        array = array.astype(np.uint64)
+    if array.dtype.kind not in "iu":
+        raise InvalidArgument(f"{name} has dtype {array.dtype}; it takes integers")
+    if array.dtype.kind == "i" and (array < 0).any():
+        place = int(np.argmax(array < 0))
+        raise InvalidArgument(f"{name}[{place}] is {array[place]}; it is at least 0")
+    native = contiguous(array, dtype=array.dtype.newbyteorder("="))
+    return native.view(np.uint64) if native.dtype == np.int64 else native.astype(np.uint64, copy=False)
+
+
 def labels(name: str, value: npt.ArrayLike, length: int) -> npt.NDArray[np.uint32]:
     """A filter's array: one number for each box, from an array or from a number for all."""
     if not is_one(value) or _hides(value):  # the latter is refused
@@ -428,21 +441,35 @@ def pairs_of_boxes(name: str, value: npt.ArrayLike, first: int, second: int) -> 
     return rows
 
 
-def region_of(region: npt.ArrayLike, axes: int = 3) -> list[float]:
-    """A box as six numbers, from two corners or from one row."""
-    bounds = floats("region", region)
+def _six_numbers(name: str, value: npt.ArrayLike, axes: int = 3, kind: str = "it") -> list[float]:
+    """A box, from two corners or from one row; one in the plane is flat."""
+    bounds = floats(name, value)
     if bounds.shape not in ((2 * axes,), (2, axes)):
-        takes = f"for boxes of {axes} axes it takes (2, {axes}) or ({2 * axes},)"
-        raise InvalidArgument(f"region has shape {bounds.shape}; {takes}")
+        raise InvalidArgument(f"{name} has shape {bounds.shape}; {kind} takes (2, {axes}) or ({2 * axes},)")
     corners = bounds.reshape(2, axes)
     return [float(bound) for bound in np.hstack([corners, np.zeros((2, 3 - axes))]).ravel()]
+
+
+def region_of(region: npt.ArrayLike, axes: int = 3) -> list[float]:
+    """A region as six numbers, for boxes of so many axes."""
+    return _six_numbers("region", region, axes, f"for boxes of {axes} axes it")
+
+
+def cell_of(cell: npt.ArrayLike) -> list[float]:
+    """A cell as six numbers."""
+    return _six_numbers("cell", cell)
+
+
+def two_of(name: str, value: Any, takes: str) -> tuple[Any, Any]:
+    """A tuple of two; an error says what it takes."""
+    if not isinstance(value, tuple) or len(value) != 2:
+        raise InvalidArgument(f"{name} takes {takes}")
+    first, second = value
+    return first, second
 
 
 def both(name: str, value: Any) -> tuple[Any, Any]:
     """An argument for each of two sets: a tuple of two, a number for all boxes, or None for neither."""
     if value is None or is_one(value):
         return value, value
-    if not isinstance(value, tuple) or len(value) != 2:
-        raise InvalidArgument(f"{name} takes a number or a tuple of two here: one for each set, or None")
-    first, second = value
-    return first, second
+    return two_of(name, value, "a number or a tuple of two here: one for each set, or None")

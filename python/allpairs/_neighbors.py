@@ -8,8 +8,9 @@ from typing import Literal
 import numpy as np
 import numpy.typing as npt
 
-from . import _arguments, _core, _search
+from . import _arguments, _core
 from ._arguments import BoxesLike, Strategy
+from ._settings import Both, one_set, two_sets
 
 #: Where each row begins, and one more; and what is in the rows.
 Rows = tuple[npt.NDArray[np.int64], npt.NDArray[np.uint32]]
@@ -76,7 +77,7 @@ def neighbors(
     (array([0, 1, 2, 2]), array([1, 2], dtype=uint32))
     """
     kind = _arguments.choice("form", form, _FORMS)
-    boxes, options = _search._one(locals())
+    boxes, options = one_set(locals())
     return _arrays(_core.neighbors(boxes, kind, options))
 
 
@@ -85,11 +86,11 @@ def neighbors_between(
     second: BoxesLike,
     *,
     distance: float = 0.0,
-    margin: _search.Both = None,
+    margin: Both = None,
     region: npt.ArrayLike | None = None,
-    group: _search.Both = None,
-    category: _search.Both = None,
-    mask: _search.Both = None,
+    group: Both = None,
+    category: Both = None,
+    mask: Both = None,
     ignore: npt.ArrayLike | None = None,
     strategy: Strategy = "auto",
     threads: int = 1,
@@ -114,5 +115,5 @@ def neighbors_between(
     >>> allpairs.neighbors_between(parts, shelves)
     (array([0, 1, 3, 3]), array([0, 0, 1], dtype=uint32))
     """
-    a, b, options = _search._two(locals())
+    a, b, options = two_sets(locals())
     return _arrays(_core.neighbors_between(a, b, options))

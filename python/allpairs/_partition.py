@@ -10,8 +10,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple, Union
 import numpy as np
 import numpy.typing as npt
 
-from . import _arguments, _core, _search
+from . import _arguments, _core
 from ._errors import InvalidArgument
+from ._settings import IN_SPACE, Both, one_set, two_sets
 
 if TYPE_CHECKING:  # not every build has it
     from . import _files
@@ -21,8 +22,8 @@ Path = Union[str, "os.PathLike[str]"]
 #: Pairs by 64-bit ids: shape (m, 2).
 IdPairs = npt.NDArray[np.uint64]
 
-#: What the settings of a search have that a search of a cell has not.
-_FIXED: dict[str, Any] = {"strategy": "auto"}
+#: What a search of a cell has in place of arguments: boxes have three axes, and one may be a row of numbers.
+_IN_CELL: dict[str, Any] = {**IN_SPACE, "single": True}
 
 
 class JoinSummary(NamedTuple):
@@ -64,11 +65,38 @@ def _value_files(values: dict[str, Any], sets: int) -> list[_files.BoxValueFiles
         given = values[name]
         if given is None:
             continue
-        if sets == 2 and (not isinstance(given, tuple) or len(given) != 2):
-            raise InvalidArgument(f"{name} takes a tuple of two here: files of each set, or None")
-        for own, paths in zip(files, given if sets == 2 else [given]):
+        each = [given] if sets == 1 else _arguments.two_of(name, given, "a tuple of two here: files of each set, or None")
+        for own, paths in zip(files, each):
             setattr(own, name, [] if paths is None else _names_of(name, paths))
     return files
+
+
+def _output_of(output: Path | None) -> str | None:
+    """The file that a join writes, if it is to write one."""
+    if output is None:
+        return None
+    target = _arguments.path_of("output", output)
+    if os.path.splitext(target)[1].lower() not in ("", ".npy"):
+        raise InvalidArgument(f"output is {target!r}; a join writes .npy files")
+    return target
+
+
+def _join_options(values: dict[str, Any]) -> _files.JoinOptions:
+    """The settings of a join, from the arguments of `join` by their names."""
+    from . import _reading
+
+    options = _reading.JoinOptions()
+    options.distance = _arguments.number("distance", values["distance"])
+    options.memory = _arguments.whole("memory", values["memory"])
+    options.resume = _arguments.flag("resume", values["resume"])
+    second = values["second"]
+    options.second = [] if second is None else _names_of("second", second)
+    options.values, *others = _value_files(values, 1 if second is None else 2)
+    if others:
+        options.second_values = others[0]
+    if values["region"] is not None:
+        options.set_region(_arguments.region_of(values["region"]))
+    return options
 
 
 def join(
@@ -143,28 +171,10 @@ def join(
     from . import _reading
 
     names = _names_of("inputs", inputs)
-    target = None if output is None else _arguments.path_of("output", output)
-    if target is not None and os.path.splitext(target)[1].lower() not in ("", ".npy"):
-        raise InvalidArgument(f"output is {target!r}; a join writes .npy files")
-    options = _reading.JoinOptions()
-    options.distance = _arguments.number("distance", distance)
-    options.memory = _arguments.whole("memory", memory)
-    options.resume = _arguments.flag("resume", resume)
-    options.second = [] if second is None else _names_of("second", second)
-    options.values, *others = _value_files(values, 1 if second is None else 2)
-    if others:
-        options.second_values = others[0]
-    if region is not None:
-        options.set_region(_arguments.region_of(region))
+    target = _output_of(output)
+    options = _join_options(values)
     options.work = _arguments.path_of("work", work) if work is not None else (target or names[0]) + ".work"
     return JoinSummary(*_reading.join_files(names, target, options, _arguments.threads_of(threads)))
-
-
-def _cell_of(cell: npt.ArrayLike) -> list[float]:
-    bounds = _arguments.floats("cell", cell)
-    if bounds.shape not in ((6,), (2, 3)):
-        raise InvalidArgument(f"cell has shape {bounds.shape}; it takes (2, 3) or (6,)")
-    return [float(bound) for bound in bounds.ravel()]
 
 
 def _ids_of(value: npt.ArrayLike, length: int, prefix: str = "") -> npt.NDArray[np.uint64]:
@@ -174,9 +184,7 @@ def _ids_of(value: npt.ArrayLike, length: int, prefix: str = "") -> npt.NDArray[
     array = _arguments.array_of("ids", value)
     if array.shape != (length,):
         raise InvalidArgument(f"{prefix}ids has shape {array.shape}; for {length} boxes it takes ({length},)")
-    if array.size and (array.dtype.kind not in "iu" or (array.dtype.kind == "i" and (array < 0).any())):
-        raise InvalidArgument("ids takes integers 0 to 2**64 - 1")
-    return _arguments.contiguous(array, dtype=np.uint64)
+    return _arguments.uint64(f"{prefix}ids", array)
 
 
 def _by_id(values: dict[str, Any]) -> dict[str, Any]:
@@ -196,27 +204,6 @@ def _by_id(values: dict[str, Any]) -> dict[str, Any]:
     if any(array.ndim == 0 or len(array) != len(order) for array in arrays.values()):
         return values  # which is an error, and said as one
     return {**values, **{name: array[order] for name, array in arrays.items()}}
-
-
-def _one(values: dict[str, Any]) -> tuple[_core.Boxes, _core.Options]:
-    """Boxes of a cell, and the settings of a search of them."""
-    boxes = _arguments.with_margins(_arguments.boxes_of(values["lower"], values["upper"]), values["margin"])
-    options = _search._settings({**_FIXED, **values}, 3)
-    _search._filter(options, _core.Side.FIRST, boxes, values, "")
-    return boxes, options
-
-
-def _two(values: dict[str, Any]) -> tuple[_core.Boxes, _core.Boxes, _core.Options]:
-    """Likewise of two sets."""
-    options = _search._settings({**_FIXED, **values}, 3)
-    own = {name: _arguments.both(name, values[name]) for name in _arguments.OF_EACH_BOX}
-    sets = []
-    for i, (name, side) in enumerate((("first", _core.Side.FIRST), ("second", _core.Side.SECOND))):
-        prefix = f"{name} set: "
-        boxes = _arguments.boxes_of(*_arguments.two_corners(values[name], prefix), prefix)
-        sets.append(_arguments.with_margins(boxes, own["margin"][i], prefix))
-        _search._filter(options, side, boxes, {key: pair[i] for key, pair in own.items()}, prefix)
-    return sets[0], sets[1], options
 
 
 def overlaps_in_cell(
@@ -269,8 +256,8 @@ def overlaps_in_cell(
            [60, 70]], dtype=uint64)
     """
     values = _by_id(locals())
-    boxes, options = _one(values)
-    return np.asarray(_core.overlaps_in_cell(boxes, _ids_of(values["ids"], len(boxes)), _cell_of(cell), options))
+    boxes, options = one_set({**_IN_CELL, **values})
+    return np.asarray(_core.overlaps_in_cell(boxes, _ids_of(values["ids"], len(boxes)), _arguments.cell_of(cell), options))
 
 
 def overlaps_between_in_cell(
@@ -280,11 +267,11 @@ def overlaps_between_in_cell(
     cell: npt.ArrayLike,
     *,
     distance: float = 0.0,
-    margin: _search.Both = None,
+    margin: Both = None,
     region: npt.ArrayLike | None = None,
-    group: _search.Both = None,
-    category: _search.Both = None,
-    mask: _search.Both = None,
+    group: Both = None,
+    category: Both = None,
+    mask: Both = None,
     threads: int = 1,
 ) -> IdPairs:
     """The pairs of a box of the first set and a box of the second that belong to one cell of space, by their ids.
@@ -315,11 +302,10 @@ def overlaps_between_in_cell(
     >>> allpairs.overlaps_between_in_cell(first, second, ([70, 50], [60]), space)
     array([[70, 60]], dtype=uint64)
     """
-    if not isinstance(ids, tuple) or len(ids) != 2:
-        raise InvalidArgument("ids takes a tuple of two here: those of each set")
-    a, b, options = _two(locals())
-    first_ids, second_ids = _ids_of(ids[0], len(a), "first set: "), _ids_of(ids[1], len(b), "second set: ")
-    return np.asarray(_core.overlaps_between_in_cell((a, first_ids), (b, second_ids), _cell_of(cell), options))
+    of_first, of_second = _arguments.two_of("ids", ids, "a tuple of two here: those of each set")
+    a, b, options = two_sets({**_IN_CELL, **locals()})
+    first_ids, second_ids = _ids_of(of_first, len(a), "first set: "), _ids_of(of_second, len(b), "second set: ")
+    return np.asarray(_core.overlaps_between_in_cell((a, first_ids), (b, second_ids), _arguments.cell_of(cell), options))
 
 
 def count_in_cell(
@@ -347,8 +333,8 @@ def count_in_cell(
     >>> allpairs.count_in_cell(boxes, None, [[1.5] * 3, [np.inf] * 3])
     2
     """
-    boxes, options = _one(locals())
-    return _core.count_in_cell(boxes, _cell_of(cell), options)
+    boxes, options = one_set({**_IN_CELL, **locals()})
+    return _core.count_in_cell(boxes, _arguments.cell_of(cell), options)
 
 
 def count_between_in_cell(
@@ -357,11 +343,11 @@ def count_between_in_cell(
     cell: npt.ArrayLike,
     *,
     distance: float = 0.0,
-    margin: _search.Both = None,
+    margin: Both = None,
     region: npt.ArrayLike | None = None,
-    group: _search.Both = None,
-    category: _search.Both = None,
-    mask: _search.Both = None,
+    group: Both = None,
+    category: Both = None,
+    mask: Both = None,
     threads: int = 1,
 ) -> int:
     """The number of pairs of `overlaps_between_in_cell`; uses memory independent of that number.
@@ -375,8 +361,8 @@ def count_between_in_cell(
     >>> allpairs.count_between_in_cell(np.zeros((3, 6)), np.zeros((2, 6)), [[-np.inf] * 3, [np.inf] * 3])
     6
     """
-    a, b, options = _two(locals())
-    return _core.count_between_in_cell(a, b, _cell_of(cell), options)
+    a, b, options = two_sets({**_IN_CELL, **locals()})
+    return _core.count_between_in_cell(a, b, _arguments.cell_of(cell), options)
 
 
 class Partition:

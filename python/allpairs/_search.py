@@ -3,89 +3,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
-from typing import Any, Optional, Union
+from collections.abc import Iterator
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _arguments, _core
 from ._arguments import BoxesLike, Order, Strategy
-from ._errors import InvalidArgument
+from ._settings import Both, one_set, two_sets
 
 #: Pairs by index: shape (m, 2).
 Pairs = npt.NDArray[np.uint32]
-
-#: A setting for each of two sets, or one number for all boxes of both.
-Both = Union[None, float, tuple[Optional[npt.ArrayLike], Optional[npt.ArrayLike]]]
-
-
-def _filter(options: _core.Options, side: _core.Side, boxes: _core.Boxes, values: dict[str, Any], prefix: str) -> None:
-    for name, setter in (
-        ("group", options.set_groups),
-        ("category", options.set_categories),
-        ("mask", options.set_masks),
-    ):
-        if values[name] is not None:
-            setter(side, _arguments.labels(prefix + name, values[name], len(boxes)))
-
-
-def _ignore(options: _core.Options, pairs: npt.ArrayLike | None, *sizes: int) -> None:
-    """Pairs that are none, of one or two sets of so many boxes."""
-    if pairs is not None:
-        options.set_ignored(_arguments.pairs_of_boxes("ignore", pairs, sizes[0], sizes[-1]), len(sizes) == 1)
-
-
-def _settings(values: dict[str, Any], axes: int) -> _core.Options:
-    """What is not about single boxes; a function that lacks a setting has no such name among its values."""
-    options = _core.Options()
-    options.set_distance(_arguments.number("distance", values["distance"]))
-    options.set_strategy(_arguments.strategy_of(values["strategy"]))
-    options.threads = _arguments.threads_of(values["threads"])
-    if values["region"] is not None:
-        options.set_region(_arguments.region_of(values["region"], axes))
-    if "order" in values:
-        options.set_order(_arguments.order_of(values["order"]))
-    if values.get("max_pairs") is not None:
-        options.set_max_pairs(_arguments.whole("max_pairs", values["max_pairs"]))
-    return options
-
-
-def _one(values: dict[str, Any]) -> tuple[_core.Boxes, _core.Options]:
-    margin = values["margin"]
-    depth = lambda: _arguments.depth_of(values["distance"], [margin])
-    boxes, axes = _arguments.box_set(
-        values["lower"], values["upper"], margin, depth, axes_taken=values.get("axes_taken", (3, 2))
-    )
-    options = _settings(values, axes)
-    _ignore(options, values["ignore"], len(boxes))
-    _filter(options, _core.Side.FIRST, boxes, values, "")
-    return boxes, options
-
-
-def _axes_of(first: _arguments.BoxSet, second: _arguments.BoxSet) -> int:
-    """The number of axes of two sets, of which one that is empty has any."""
-    if first.axes != second.axes and len(first.boxes) and len(second.boxes):
-        raise InvalidArgument(f"the boxes of the first set have {first.axes} axes and those of the second {second.axes}")
-    return first.axes if len(first.boxes) else second.axes
-
-
-def _two(values: dict[str, Any]) -> tuple[_core.Boxes, _core.Boxes, _core.Options]:
-    margins = _arguments.both("margin", values["margin"])
-    labels = {name: _arguments.both(name, values[name]) for name in ("group", "category", "mask")}
-    depth = lambda: _arguments.depth_of(values["distance"], margins)
-    sets = []
-    for margin, name in zip(margins, ("first", "second")):
-        prefix = f"{name} set: "
-        lower, upper = _arguments.two_corners(values[name], prefix)
-        sets.append(
-            _arguments.box_set(lower, upper, margin, depth, prefix, axes_taken=values.get("axes_taken", (3, 2)))
-        )
-    options = _settings(values, _axes_of(sets[0], sets[1]))
-    _ignore(options, values["ignore"], len(sets[0].boxes), len(sets[1].boxes))
-    for i, (name, side) in enumerate((("first", _core.Side.FIRST), ("second", _core.Side.SECOND))):
-        _filter(options, side, sets[i].boxes, {key: pair[i] for key, pair in labels.items()}, f"{name} set: ")
-    return sets[0].boxes, sets[1].boxes, options
 
 
 def overlaps(
@@ -172,7 +100,7 @@ def overlaps(
     >>> allpairs.overlaps(lower, upper, ignore=[[1, 0]])
     array([[1, 2]], dtype=uint32)
     """
-    boxes, options = _one(locals())
+    boxes, options = one_set(locals())
     return np.asarray(_core.overlaps(boxes, options))
 
 
@@ -221,7 +149,7 @@ def overlaps_between(
     >>> allpairs.overlaps_between(parts, shelves, group=([7, 0], [7]))
     array([[1, 0]], dtype=uint32)
     """
-    a, b, options = _two(locals())
+    a, b, options = two_sets(locals())
     return np.asarray(_core.overlaps_between(a, b, options))
 
 
@@ -252,7 +180,7 @@ def count(
     >>> allpairs.count(corners, corners + 3)
     3
     """
-    boxes, options = _one(locals())
+    boxes, options = one_set(locals())
     return _core.count(boxes, options)
 
 
@@ -282,7 +210,7 @@ def count_between(
     >>> allpairs.count_between([[0, 0, 0, 1, 1, 1]], [[1, 1, 1, 2, 2, 2], [3, 3, 3, 4, 4, 4]])
     1
     """
-    a, b, options = _two(locals())
+    a, b, options = two_sets(locals())
     return _core.count_between(a, b, options)
 
 
@@ -336,7 +264,7 @@ def batches(
     499500
     """
     size = _arguments.whole("batch_size", batch_size, least=1)
-    boxes, options = _one(locals())
+    boxes, options = one_set(locals())
     return _iterate(_core.Batches(boxes, None, options, size))
 
 
@@ -366,7 +294,7 @@ def batches_between(
     [(4, 2), (2, 2)]
     """
     size = _arguments.whole("batch_size", batch_size, least=1)
-    a, b, options = _two(locals())
+    a, b, options = two_sets(locals())
     return _iterate(_core.Batches(a, b, options, size))
 
 

@@ -311,8 +311,10 @@ class World(WorldQueries):
 
     @property
     def statistics(self) -> WorldStatistics:
-        """What the last step tested, all 0 before the first one; it depends on the processor. A step that was interrupted or
-        failed leaves numbers that mean nothing, and so does making a copy."""
+        """What the last step tested, all 0 before the first one; it depends on the processor.
+
+        A step that was interrupted or failed leaves numbers that mean nothing, and so does making a copy.
+        """
         last = self._core.statistics()
         return WorldStatistics(*(getattr(last, name) for name in WorldStatistics._fields))
 

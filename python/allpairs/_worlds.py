@@ -9,9 +9,10 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from . import _arguments, _core, _search
+from . import _arguments, _core, _settings
 from ._arguments import BoxesLike, Order, Strategy
 from ._errors import InvalidArgument
+from ._search import Pairs
 
 #: Where each world's pairs, or boxes, begin: one more than there are worlds.
 Offsets = npt.NDArray[np.int64]
@@ -23,19 +24,10 @@ def _equal_offsets(shape: tuple[int, ...]) -> npt.NDArray[np.uint64]:
 
 
 def _given_offsets(value: npt.ArrayLike) -> npt.NDArray[np.uint64]:
-    """Integers as uint64, the same memory where they are of 64 bits."""
     array = _arguments.array_of("offsets", value)
     if array.ndim != 1:
         raise InvalidArgument(f"offsets has shape {array.shape}; it takes (worlds + 1,)")
-    if array.size == 0:
-        array = array.astype(np.uint64)
-    if array.dtype.kind not in "iu":
-        raise InvalidArgument(f"offsets has dtype {array.dtype}; it takes integers")
-    if array.dtype.kind == "i" and (array < 0).any():
-        world = int(np.argmax(array < 0))
-        raise InvalidArgument(f"offsets[{world}] is {array[world]}; it is at least 0")
-    native = _arguments.contiguous(array, dtype=array.dtype.newbyteorder("="))
-    return native.view(np.uint64) if native.dtype == np.int64 else native.astype(np.uint64, copy=False)
+    return _arguments.uint64("offsets", array)
 
 
 def _divided(
@@ -57,13 +49,10 @@ def _divided(
     return low.reshape(-1, width), None if high is None else high.reshape(-1, width), _equal_offsets(low.shape)
 
 
-def _shared(value: BoxesLike, boxes: _arguments.BoxSet, depth: Callable[[], float]) -> _arguments.BoxSet:
-    """Boxes that are in every world, of as many axes as those of the worlds."""
+def _shared(value: BoxesLike, depth: Callable[[], float]) -> _arguments.BoxSet:
+    """Boxes that are in every world."""
     corners = _arguments.two_corners(value, "shared: ")
-    others = _arguments.box_set(*corners, None, depth, "shared: ", single=True)
-    if others.axes != boxes.axes and len(others.boxes) and len(boxes.boxes):
-        raise InvalidArgument(f"the boxes of the worlds have {boxes.axes} axes and the shared ones {others.axes}")
-    return others
+    return _arguments.box_set(*corners, None, depth, "shared: ", single=True)
 
 
 def _flat(name: str, array: npt.NDArray[Any], begin: npt.NDArray[np.uint64]) -> npt.NDArray[Any]:
@@ -99,6 +88,25 @@ def _margins(value: npt.ArrayLike | None, boxes: int, begin: npt.NDArray[np.uint
     return np.tile(array, worlds) if array.size == _equal_size(begin) and array.size * worlds == boxes else array
 
 
+def _prepared(values: dict[str, Any]) -> tuple[_core.Worlds, _core.Boxes | None, _core.Options]:
+    """The worlds, the boxes that they share, if any, and the settings of a search, from the arguments of a function."""
+    low, high, begin = _divided(values["lower"], values["upper"], values["offsets"])
+    margin = _margins(values["margin"], low.shape[0] if low.ndim else 0, begin)
+    depth = lambda: _arguments.depth_of(values["distance"], [margin])
+    boxes = _arguments.box_set(low, high, margin, depth, single=True)
+    others = None if values["shared"] is None else _shared(values["shared"], depth)
+    names = ("the boxes of the worlds", "the shared ones")
+    options = _settings.options_of(values, boxes.axes if others is None else _settings.common_axes(boxes, others, names))
+    size = len(boxes.boxes)
+    _settings.set_filter(options, _core.Side.FIRST, values, lambda name, value: _labels(name, value, size, begin))
+    ignored = np.empty((0, 2), dtype=np.uint32)
+    if others is not None:
+        _settings.set_ignored(options, values["ignore"], int(np.diff(begin).max(initial=0)), len(others.boxes))
+    elif values["ignore"] is not None:
+        ignored = _arguments.index_rows("ignore", values["ignore"], 2)
+    return _core.Worlds(boxes.boxes, begin, ignored), None if others is None else others.boxes, options
+
+
 def overlaps_in_worlds(
     lower: npt.ArrayLike,
     upper: npt.ArrayLike | None = None,
@@ -116,7 +124,7 @@ def overlaps_in_worlds(
     strategy: Strategy = "auto",
     threads: int = 1,
     max_pairs: int | None = None,
-) -> tuple[_search.Pairs, Offsets]:
+) -> tuple[Pairs, Offsets]:
     """The overlapping pairs of each of many worlds, such as the copies of a simulation, in one call.
 
     The rows of world k are what `overlaps` returns for its boxes alone, in the same order, with boxes numbered within
@@ -162,24 +170,6 @@ def overlaps_in_worlds(
     >>> pairs.tolist(), offsets.tolist()
     ([[0, 0], [0, 0]], [0, 1, 2])
     """
-    low, high, begin = _divided(lower, upper, offsets)
-    margin = _margins(margin, low.shape[0] if low.ndim else 0, begin)
-    depth = lambda: _arguments.depth_of(distance, [margin])
-    own = _arguments.box_set(low, high, margin, depth, single=True)
-    boxes, axes = own
-    others = None
-    if shared is not None:
-        others, shared_axes = _shared(shared, own, depth)
-        axes = axes if len(boxes) else shared_axes
-    values = dict(locals())
-    options = _search._settings(values, axes)
-    for name, setter in (("group", options.set_groups), ("category", options.set_categories), ("mask", options.set_masks)):
-        if values[name] is not None:
-            setter(_core.Side.FIRST, _labels(name, values[name], len(boxes), begin))
-    ignored = np.empty((0, 2), dtype=np.uint32)
-    if others is not None:
-        _search._ignore(options, ignore, int(np.diff(begin).max(initial=0)), len(others))
-    elif ignore is not None:
-        ignored = _arguments.index_rows("ignore", ignore, 2)
-    pairs, places = _core.overlaps_in_worlds(_core.Worlds(boxes, begin, ignored), others, options)
+    worlds, others, options = _prepared(locals())
+    pairs, places = _core.overlaps_in_worlds(worlds, others, options)
     return np.asarray(pairs), np.asarray(places).view(np.int64)

@@ -18,8 +18,9 @@ import numpy as np
 import numpy.typing as npt
 from mpi4py import MPI
 
-from . import _core, _search
+from . import _core
 from ._errors import Error, InvalidArgument
+from ._settings import IN_SPACE, Both, one_set, two_sets
 
 try:
     from . import _mpi
@@ -32,9 +33,6 @@ __all__ = ["count", "count_between", "overlaps", "overlaps_between"]
 IdPairs = npt.NDArray[np.uint64]
 
 _Made = TypeVar("_Made")
-
-#: What the settings of a search have that a search on several ranks has not.
-_FIXED: dict[str, Any] = {"ignore": None, "strategy": "auto", "axes_taken": (3,)}
 
 
 def _portable(problem: Optional[BaseException]) -> Optional[BaseException]:
@@ -74,7 +72,7 @@ def _prepared(
 ) -> tuple[_mpi.DistributedSearch, list[_core.Boxes]]:
     """A search on the ranks, and the sets that it is for: one or two, as make() makes them of a function's arguments."""
     comm = values["comm"]
-    *sets, options = _on_all_ranks(comm, lambda: make({**_FIXED, **values}))
+    *sets, options = _on_all_ranks(comm, lambda: make({**IN_SPACE, **values}))
     if MPI.Get_library_version().strip("\0 \n") != _mpi.mpi_version().strip():
         raise InvalidArgument("mpi4py and allpairs were built for different MPIs")
     return _mpi.DistributedSearch(comm.py2f(), options), sets
@@ -120,7 +118,7 @@ def overlaps(
     >>> allpairs.mpi.overlaps(MPI.COMM_SELF, np.array([[0, 0, 0, 2, 2, 2], [1, 1, 1, 3, 3, 3], [9, 9, 9, 9, 9, 9]]))
     array([[0, 1]], dtype=uint64)
     """
-    search, sets = _prepared(_search._one, locals())
+    search, sets = _prepared(one_set, locals())
     return np.asarray(search.find(*sets))
 
 
@@ -139,7 +137,7 @@ def count(
     max_pairs: int | None = None,
 ) -> int:
     """The number of pairs of all ranks, on each of them. Parameters as in `overlaps`."""
-    search, sets = _prepared(_search._one, locals())
+    search, sets = _prepared(one_set, locals())
     return search.count(*sets)
 
 
@@ -149,11 +147,11 @@ def overlaps_between(
     second: Any,
     *,
     distance: float = 0.0,
-    margin: _search.Both = None,
+    margin: Both = None,
     region: npt.ArrayLike | None = None,
-    group: _search.Both = None,
-    category: _search.Both = None,
-    mask: _search.Both = None,
+    group: Both = None,
+    category: Both = None,
+    mask: Both = None,
     threads: int = 1,
     max_pairs: int | None = None,
 ) -> IdPairs:
@@ -161,7 +159,7 @@ def overlaps_between(
 
     Parameters as in `allpairs.overlaps_between` and `overlaps`; both sets are numbered by themselves.
     """
-    search, sets = _prepared(_search._two, locals())
+    search, sets = _prepared(two_sets, locals())
     return np.asarray(search.find(*sets))
 
 
@@ -171,14 +169,14 @@ def count_between(
     second: Any,
     *,
     distance: float = 0.0,
-    margin: _search.Both = None,
+    margin: Both = None,
     region: npt.ArrayLike | None = None,
-    group: _search.Both = None,
-    category: _search.Both = None,
-    mask: _search.Both = None,
+    group: Both = None,
+    category: Both = None,
+    mask: Both = None,
     threads: int = 1,
     max_pairs: int | None = None,
 ) -> int:
     """The number of pairs of two sets on all ranks, on each of them. Parameters as in `overlaps_between`."""
-    search, sets = _prepared(_search._two, locals())
+    search, sets = _prepared(two_sets, locals())
     return search.count(*sets)

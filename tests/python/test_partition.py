@@ -127,8 +127,10 @@ def test_bad_arguments_are_named():
         allpairs.overlaps_in_cell(boxes, None, [1, 2], space)
     with pytest.raises(allpairs.InvalidArgument, match="ids is -3; it is at least 0"):
         allpairs.overlaps_in_cell(boxes, None, [1, 2, -3], space)
-    with pytest.raises(allpairs.InvalidArgument, match="ids takes integers"):
+    with pytest.raises(allpairs.InvalidArgument, match=r"ids\[2\] is -3; it is at least 0"):
         allpairs.overlaps_in_cell(boxes, None, np.array([1, 2, -3]), space)
+    with pytest.raises(allpairs.InvalidArgument, match="ids has dtype float64; it takes integers"):
+        allpairs.overlaps_in_cell(boxes, None, np.array([1, 2, 3.0]), space)
     with pytest.raises(allpairs.InvalidArgument, match=r"cell has shape \(3,\)"):
         allpairs.overlaps_in_cell(boxes, None, [1, 2, 3], [1, 2, 3])
     with pytest.raises(allpairs.InvalidArgument, match="two boxes have the id 7"):
