@@ -141,9 +141,9 @@ def _merge(found: list[Array]) -> Array:
     return ordered
 
 
-def _write(pairs: Array, path: str) -> int:
-    """The file appears when it is complete, whoever else writes it too."""
-    beside = f"{path}.{uuid4().hex}.part"
+def _write(pairs: Array, path: str, call: str) -> int:
+    """The file appears when it is complete, whoever else writes it too; until then its name has that of the call."""
+    beside = f"{path}.{call}-{uuid4().hex}.part"
     try:
         with open(beside, "xb") as file:
             np.save(file, pairs)
@@ -157,9 +157,8 @@ def _write(pairs: Array, path: str) -> int:
     return len(pairs)
 
 
-def _names_in(output: PathLike, count: int) -> list[str]:
+def _names_in(folder: Path, count: int) -> list[str]:
     """The files of a result in a folder, which is made if it is not there."""
-    folder = Path(os.path.abspath(os.fsdecode(output)))
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as problem:
@@ -169,6 +168,20 @@ def _names_in(output: PathLike, count: int) -> list[str]:
     if others:
         raise file_error(others[0], f"is of another result, with more parts than the {count} of this one: remove it")
     return names
+
+
+def _written(merged: list[Any], output: PathLike) -> int:
+    """Computes the parts of a result into files of a folder, and returns the number of pairs."""
+    folder = Path(os.path.abspath(_arguments.path_of("output", output)))
+    names = _names_in(folder, len(merged))
+    call = uuid4().hex
+    try:
+        counts: Iterable[int] = compute(*[delayed(_write)(pairs, name, call) for pairs, name in zip(merged, names)])
+    finally:
+        for left in folder.glob(f"part-*.npy.{call}-*.part"):  # by workers that were killed
+            with suppress(OSError):
+                left.unlink()
+    return sum(counts)
 
 
 def _picked(items: Any, index: int) -> Any:
@@ -229,6 +242,13 @@ def _planned(values: Values) -> tuple[Values, list[BoxParts], list[_Cell]]:
     return settings, sets, _cells_of(sets, settings["distance"], values["cells"])
 
 
+def _merged(cells: list[_Cell], settings: Values, ranges: tuple[Sequence[int], str]) -> list[Any]:
+    """For each range that the first boxes of pairs are in, the task for its pairs, of all cells."""
+    found = [delayed(_search)(cell.sets, cell.bounds, settings, ranges) for cell in cells]
+    pick = delayed(_picked)
+    return [delayed(_merge)([pick(pairs, number) for pairs in found]) for number in range(len(ranges[0]) - 1)]
+
+
 def overlaps(
     boxes: Any,
     output: Optional[PathLike] = None,
@@ -256,7 +276,8 @@ def overlaps(
         sets are numbered by themselves.
     output : path of a folder
         Write the pairs there, as part-00000.npy and so on, and return their number. Parts of a result with more parts
-        must not be there.
+        must not be there. What workers that were killed had begun to write is removed at the end; if this process itself is
+        killed, files that end in .part may stay, which nothing reads.
     distance, region
         As in `allpairs.overlaps`.
     margin, group, category, mask : number, dask array or array_like of shape (n,), path, or list of paths
@@ -283,14 +304,9 @@ def overlaps(
     """
     settings, sets, divided = _planned(locals())
     dtype = "uint32" if max(sum(each.sizes) for each in sets) <= 2**32 else "uint64"
-    ranges = (sets[0].begins, dtype)
-    found = [delayed(_search)(cell.sets, cell.bounds, settings, ranges) for cell in divided]
-    pick = delayed(_picked)
-    merged = [delayed(_merge)([pick(pairs, number) for pairs in found]) for number in range(len(sets[0].parts))]
+    merged = _merged(divided, settings, (sets[0].begins, dtype))
     if output is not None:
-        names = _names_in(output, len(merged))
-        counts: Iterable[int] = compute(*[delayed(_write)(pairs, name) for pairs, name in zip(merged, names)])
-        return sum(counts)
+        return _written(merged, output)
     chunks = [from_delayed(pairs, (np.nan, 2), dtype=dtype) for pairs in merged]
     return concatenate(chunks, allow_unknown_chunksizes=True)
 

@@ -306,6 +306,36 @@ def test_a_worker_that_is_killed_changes_nothing(cluster, tmp_path):
     assert os.path.exists(marker)
 
 
+def test_a_worker_that_is_killed_while_it_writes_leaves_nothing(cluster, tmp_path):
+    boxes = boxes_of("uniform", np.float32)
+    marker, folder = str(tmp_path / "killed"), tmp_path / "pairs"
+    folder.mkdir()
+    (folder / "part-00001.npy.part").write_text("somebody else's")
+
+    def be_killed_once():
+        save = np.save
+
+        def half(file, array):
+            try:
+                os.close(os.open(marker, os.O_CREAT | os.O_EXCL))
+            except FileExistsError:
+                return save(file, array)
+            file.write(b"half of it")
+            file.flush()
+            os.kill(os.getpid(), signal.SIGKILL)
+
+        np.save = half
+
+    cluster.run(be_killed_once)
+    count = allpairs.dask.overlaps(dask.array.from_array(boxes, chunks=(1000, 6)), folder)
+    names = sorted(path.name for path in folder.iterdir())
+    assert names == ["part-00000.npy", "part-00001.npy", "part-00001.npy.part", "part-00002.npy"]
+    assert count == allpairs.count(boxes)
+    found = np.concatenate([np.load(path) for path in sorted(folder.glob("*.npy"))])
+    assert found.tobytes() == allpairs.overlaps(boxes).tobytes()
+    assert os.path.exists(marker)
+
+
 @pytest.mark.parametrize("name", ["margin", "group", "category", "mask"])
 def test_masked_entries_in_chunks_are_refused(name):
     boxes = dask.array.from_array(np.tile([0.0, 0, 0, 1, 1, 1], (4, 1)), chunks=(2, 6))
