@@ -30,7 +30,7 @@ from ._partition import (
 from ._scene import Detection, Model, Remark, Scene, detect, load
 from ._search import batches, batches_between, count, count_between, instruction_sets, overlaps, overlaps_between
 from ._world import EVERY_WORLD, NO_BOX, Step, World, WorldStatistics
-from ._worlds import overlaps_in_worlds
+from ._worlds import count_in_worlds, overlaps_in_worlds
 
 __all__ = [
     "Detection",
@@ -57,6 +57,7 @@ __all__ = [
     "count_between",
     "count_between_in_cell",
     "count_in_cell",
+    "count_in_worlds",
     "detect",
     "instruction_sets",
     "join",

@@ -133,6 +133,10 @@ class MeshCandidates:
             raise InvalidArgument(f"mesh {self._without[0]} has no positions: set_positions() is to come first")
         return chosen
 
+    def shrink(self) -> None:
+        """Releases the memory that is kept for the next search; positions, and arrays that were returned, stay."""
+        self._core.shrink()
+
     def __repr__(self) -> str:
         return f"MeshCandidates({len(self.triangles)} triangles, {len(self.edges)} edges)"
 

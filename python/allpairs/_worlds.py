@@ -173,3 +173,40 @@ def overlaps_in_worlds(
     worlds, others, options = _prepared(locals())
     pairs, places = _core.overlaps_in_worlds(worlds, others, options)
     return np.asarray(pairs), np.asarray(places).view(np.int64)
+
+
+def count_in_worlds(
+    lower: npt.ArrayLike,
+    upper: npt.ArrayLike | None = None,
+    offsets: npt.ArrayLike | None = None,
+    *,
+    shared: BoxesLike | None = None,
+    distance: float = 0.0,
+    margin: npt.ArrayLike | None = None,
+    region: npt.ArrayLike | None = None,
+    group: npt.ArrayLike | None = None,
+    category: npt.ArrayLike | None = None,
+    mask: npt.ArrayLike | None = None,
+    ignore: npt.ArrayLike | None = None,
+    strategy: Strategy = "auto",
+    threads: int = 1,
+    max_pairs: int | None = None,
+) -> npt.NDArray[np.int64]:
+    """The number of pairs of each world; uses memory independent of the pairs.
+
+    The parameters, and what is raised, are those of `overlaps_in_worlds`.
+
+    Returns
+    -------
+    ndarray, shape (worlds,), int64
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import allpairs
+    >>> row = np.array([[0, 0, 0, 2, 2, 2], [1, 1, 1, 3, 3, 3], [9, 9, 9, 9, 9, 9]], dtype=np.float32)
+    >>> allpairs.count_in_worlds(np.stack([row, row * 0, row]))
+    array([1, 3, 1])
+    """
+    places = _core.count_in_worlds(*_prepared(locals()))
+    return np.diff(np.asarray(places).view(np.int64))

@@ -92,6 +92,12 @@ class MeshCandidates {
     return search([kind](elements::ElementCandidates& candidates) { return candidates.count(kind); });
   }
 
+  void shrink() {
+    const ReleasedGil released;
+    const std::lock_guard lock(m_mutex);
+    m_candidates.shrink();
+  }
+
   [[nodiscard]] std::unique_ptr<IdArray> edges() const { return arrayOf(flat(m_candidates.topology().edges()), 2); }
 
   [[nodiscard]] std::unique_ptr<IdArray> triangles() const {
@@ -137,6 +143,7 @@ void bindElements(py::module_& module) {
       .def("set_positions", &MeshCandidates::setPositions)
       .def("find", &MeshCandidates::find)
       .def("count", &MeshCandidates::count)
+      .def("shrink", &MeshCandidates::shrink)
       .def("edges", &MeshCandidates::edges)
       .def("triangles", &MeshCandidates::triangles);
 }

@@ -53,12 +53,21 @@ py::tuple findInWorlds(const Division& division, const Boxes* shared, Options& o
   }));
 }
 
+std::unique_ptr<OffsetArray> countInWorlds(const Division& division, const Boxes* shared, Options& options) {
+  const Worlds& worlds = division.worlds();
+  return arrayOf(options.run(worlds.boxes().size(), [&](const OverlapOptions& settings) {
+    return shared == nullptr ? countOverlapsInWorlds(worlds, settings)
+                             : countOverlapsInWorlds(worlds, shared->set(), settings);
+  }));
+}
+
 }  // namespace
 
 void bindWorlds(py::module_& module) {
   const py::class_<OffsetArray> offsets(module, "OffsetArray", tableProtocol<OffsetArray>());
   py::class_<Division>(module, "Worlds").def(py::init<std::shared_ptr<Boxes>, const py::buffer&, const py::buffer&>());
   module.def("overlaps_in_worlds", &findInWorlds);
+  module.def("count_in_worlds", &countInWorlds);
 }
 
 }  // namespace allpairs::python

@@ -77,6 +77,12 @@ def test_searches(and_later, strategy):
         check(and_later, lambda: None, call)
 
 
+def test_searches_of_worlds(and_later):
+    rows = np.hstack(BOXES).reshape(10, 30, 6)
+    check(and_later, lambda: None, lambda _: allpairs.overlaps_in_worlds(rows))
+    check(and_later, lambda: None, lambda _: allpairs.count_in_worlds(rows, shared=np.hstack(OTHERS)))
+
+
 def test_batches(and_later):
     check(and_later, lambda: None, lambda _: list(allpairs.batches(*BOXES, batch_size=50)))
     check(and_later, lambda: None, lambda _: list(allpairs.batches_between(BOXES, OTHERS, batch_size=50)))

@@ -26,6 +26,15 @@ def assert_worlds(found, expected):
         np.testing.assert_array_equal(pairs[offsets[k] : offsets[k + 1]], rows)
 
 
+def overlaps_in_worlds(*arrays, **settings):
+    """Pairs, as many as are counted."""
+    found = allpairs.overlaps_in_worlds(*arrays, **settings)
+    counts = allpairs.count_in_worlds(*arrays, **{name: value for name, value in settings.items() if name != "order"})
+    assert counts.dtype == np.int64
+    np.testing.assert_array_equal(counts, np.diff(found[1]))
+    return found
+
+
 def each(lower, upper, offsets, call):
     return [call(lower[a:b], upper[a:b]) for a, b in zip(offsets[:-1], offsets[1:])]
 
@@ -35,15 +44,15 @@ def each(lower, upper, offsets, call):
 def test_rows_of_each_world_are_those_of_the_double_loop(dtype, threads):
     lower, upper, offsets = scene(dtype)
     expected = each(lower, upper, offsets, every_pair)
-    assert_worlds(allpairs.overlaps_in_worlds(lower, upper, offsets, threads=threads), expected)
-    assert_worlds(allpairs.overlaps_in_worlds(np.hstack([lower, upper]), offsets=offsets, threads=threads), expected)
+    assert_worlds(overlaps_in_worlds(lower, upper, offsets, threads=threads), expected)
+    assert_worlds(overlaps_in_worlds(np.hstack([lower, upper]), offsets=offsets, threads=threads), expected)
 
 
 @pytest.mark.parametrize("dtype", [np.int32, np.int64, np.uint32, np.uint64, ">i8", np.int16])
 def test_offsets_are_of_any_integers(dtype):
     lower, upper, offsets = scene()
     assert_worlds(
-        allpairs.overlaps_in_worlds(lower, upper, offsets.astype(dtype)), each(lower, upper, offsets, every_pair)
+        overlaps_in_worlds(lower, upper, offsets.astype(dtype)), each(lower, upper, offsets, every_pair)
     )
 
 
@@ -52,9 +61,9 @@ def test_worlds_of_equal_size_need_no_offsets():
     offsets = np.arange(13) * 20
     expected = each(lower, upper, offsets, every_pair)
     low, high = lower.reshape(12, 20, 3), upper.reshape(12, 20, 3)
-    assert_worlds(allpairs.overlaps_in_worlds(low, high), expected)
-    assert_worlds(allpairs.overlaps_in_worlds(np.concatenate([low, high], axis=2)), expected)
-    pairs, found = allpairs.overlaps_in_worlds(np.empty((0, 20, 6)))
+    assert_worlds(overlaps_in_worlds(low, high), expected)
+    assert_worlds(overlaps_in_worlds(np.concatenate([low, high], axis=2)), expected)
+    pairs, found = overlaps_in_worlds(np.empty((0, 20, 6)))
     assert pairs.shape == (0, 2)
     assert found.tolist() == [0]
 
@@ -70,7 +79,7 @@ def test_every_setting_holds_in_each_world():
         allpairs.overlaps(lower[a:b], upper[a:b], **{key: value[a:b] for key, value in settings.items()}, **common)
         for a, b in zip(offsets[:-1], offsets[1:])
     ]
-    assert_worlds(allpairs.overlaps_in_worlds(lower, upper, offsets, **settings, **common), expected)
+    assert_worlds(overlaps_in_worlds(lower, upper, offsets, **settings, **common), expected)
 
 
 def test_a_filter_of_one_world_holds_for_all_of_equal_size():
@@ -82,9 +91,9 @@ def test_a_filter_of_one_world_holds_for_all_of_equal_size():
         allpairs.overlaps(lower[a : a + 40], upper[a : a + 40], group=group, ignore=ignore) for a in range(0, 1200, 40)
     ]
     low, high = lower.reshape(30, 40, 3), upper.reshape(30, 40, 3)
-    assert_worlds(allpairs.overlaps_in_worlds(low, high, group=group, ignore=ignore), expected)
+    assert_worlds(overlaps_in_worlds(low, high, group=group, ignore=ignore), expected)
     every = np.tile(group, (30, 1))
-    assert_worlds(allpairs.overlaps_in_worlds(low, high, group=every, ignore=ignore), expected)
+    assert_worlds(overlaps_in_worlds(low, high, group=every, ignore=ignore), expected)
 
 
 def test_shared_boxes_are_in_every_world():
@@ -97,17 +106,17 @@ def test_shared_boxes_are_in_every_world():
 
     for settings in ({}, {"order": "second"}, {"ignore": [[0, 3], [1, 1]]}, {"distance": 1}):
         expected = each(lower, upper, offsets, lambda a, b, s=settings: alone(a, b, **s))
-        assert_worlds(allpairs.overlaps_in_worlds(lower, upper, offsets, shared=shared, **settings), expected)
+        assert_worlds(overlaps_in_worlds(lower, upper, offsets, shared=shared, **settings), expected)
 
 
 def test_arrays_of_others_are_taken():
     lower, upper = random_boxes(60, seed=8, dtype=np.float32)
     rows = np.hstack([lower, upper]).reshape(3, 20, 6)
     expected = each(lower, upper, [0, 20, 40, 60], every_pair)
-    assert_worlds(allpairs.overlaps_in_worlds(Capsule(rows)), expected)
-    assert_worlds(allpairs.overlaps_in_worlds(memoryview(rows)), expected)
+    assert_worlds(overlaps_in_worlds(Capsule(rows)), expected)
+    assert_worlds(overlaps_in_worlds(memoryview(rows)), expected)
     offsets = array.array("q", [0, 20, 40, 60])
-    assert_worlds(allpairs.overlaps_in_worlds(Capsule(lower), Capsule(upper), offsets), expected)
+    assert_worlds(overlaps_in_worlds(Capsule(lower), Capsule(upper), offsets), expected)
 
 
 @pytest.mark.parametrize(
@@ -124,8 +133,18 @@ def test_arrays_of_others_are_taken():
     ],
 )
 def test_wrong_offsets_are_named(offsets, message):
-    with pytest.raises(allpairs.InvalidArgument, match=message):
-        allpairs.overlaps_in_worlds(np.zeros((10, 6)), offsets=offsets)
+    for call in (allpairs.overlaps_in_worlds, allpairs.count_in_worlds):
+        with pytest.raises(allpairs.InvalidArgument, match=message):
+            call(np.zeros((10, 6)), offsets=offsets)
+
+
+def test_more_pairs_than_the_limit_are_refused_in_counts_too():
+    boxes = np.zeros((10, 3, 6))
+    assert allpairs.count_in_worlds(boxes, max_pairs=30).tolist() == [3] * 10
+    with pytest.raises(allpairs.LimitExceeded):
+        allpairs.count_in_worlds(boxes, max_pairs=29)
+    with pytest.raises(TypeError):
+        allpairs.count_in_worlds(boxes, order="first")
 
 
 def test_wrong_shapes_are_named():
