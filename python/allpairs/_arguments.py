@@ -148,7 +148,11 @@ def array_of(name: str, value: npt.ArrayLike) -> npt.NDArray[Any]:
     """The value as an array; NumPy would drop the mask of a masked one, and what it hides would count."""
     if type(value) is np.ndarray:
         return value
-    if _hides(value):
+    try:
+        hides = _hides(value)
+    except RecursionError:  # a list that holds itself, say
+        raise InvalidArgument(f"{name} cannot be read as an array: it is nested too deeply") from None
+    if hides:
         raise InvalidArgument(f"{name} has masked entries, which cannot be left out; pass rows without any, or filled() ones")
     is_exchanged = hasattr(value, "__dlpack__") and not hasattr(value, "__array__")  # NumPy takes it for an object
     try:

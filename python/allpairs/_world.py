@@ -266,7 +266,8 @@ class World(WorldQueries):
         return self._core.size()
 
     def __contains__(self, id: object) -> bool:
-        number = int(id) if isinstance(id, (int, np.integer)) else -1
+        single = id.item() if isinstance(id, np.ndarray) and id.ndim == 0 else id
+        number = int(single) if isinstance(single, (int, np.integer)) else -1
         return 0 <= number < NO_BOX and self._core.contains(number)
 
     def ids(self) -> Ids:

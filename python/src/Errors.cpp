@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cctype>
 #include <exception>
+#include <new>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -56,6 +58,10 @@ void translate(std::exception_ptr pointer) {
     raise("InvalidArgument", textOf(error.what()));
   } catch (const Error& error) {
     raise("Error", textOf(error.what()));
+  } catch (const std::bad_alloc&) {
+    PyErr_SetString(PyExc_MemoryError, "out of memory");
+  } catch (const std::length_error&) {  // more than a container can hold
+    PyErr_SetString(PyExc_MemoryError, "out of memory");
   }
 }
 

@@ -97,6 +97,14 @@ def test_arguments_that_make_no_sense_are_named(arguments, message):
         allpairs.overlaps(**arguments)
 
 
+def nested(depth):
+    """A list in a list in a list."""
+    rows = [0.0]
+    for _ in range(depth):
+        rows = [rows, rows]
+    return rows
+
+
 WORLD = allpairs.World()
 MESH = {"triangles": [[0, 1, 2]], "vertex_count": 3}
 
@@ -138,6 +146,8 @@ MESH = {"triangles": [[0, 1, 2]], "vertex_count": 3}
         (lambda: WORLD.first_hits([0, 0, 0], [[1, 2], [3]]), "directions cannot be read as an array"),
         (lambda: WORLD.overlapping(BOXES, world=allpairs.EVERY_WORLD), "world is 4294967295; it is at most 4294967294"),
         (lambda: allpairs.overlaps([[1, 2], [3]]), "lower cannot be read as an array"),
+        (lambda: allpairs.overlaps(nested(5000)), "lower cannot be read as an array: it is nested too deeply"),
+        (lambda: WORLD.boxes(nested(5000)), "ids cannot be read as an array: it is nested too deeply"),
         (lambda: allpairs.overlaps_in_worlds([[np.ma.masked_less(BOXES, 2)] * 2]), ".* has masked entries"),
         (lambda: allpairs.Partition(BOXES, cells=2, distance=np.nan), "the distance is NaN"),
         (lambda: allpairs.Partition(BOXES, cells=2).cells_of(BOXES, distance=np.nan), "distance is nan"),
@@ -186,7 +196,8 @@ def test_a_truth_value_of_numpy_counts_as_python_s(recwarn):
 def test_what_is_no_id_is_in_no_world():
     world = allpairs.World()
     (id,) = world.add([[0, 0, 0, 1, 1, 1]])
-    assert id in world and int(id) in world
+    assert id in world and int(id) in world and np.array(id) in world
+    assert np.array(float(id)) not in world and np.array([id]) not in world
     for other in (1, -1, 2**32 - 1, 2**40, 10**400, 0.0, "0", None):
         assert other not in world
 

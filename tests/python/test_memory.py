@@ -34,7 +34,9 @@ def fails(k, and_later, call):
     _library.allpairsTestFail(k, and_later, SMALLEST)
     try:
         result = call()
-    except (MemoryError, allpairs.Error):
+    except MemoryError as error:
+        assert str(error) == "out of memory"
+    except allpairs.Error:
         pass
     finally:
         happened = _library.allpairsTestStop()
