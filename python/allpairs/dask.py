@@ -204,30 +204,41 @@ def _settings_of(values: Values) -> Values:
     return settings
 
 
-def _cells_of(sets: list[BoxParts], distance: float, cells: Optional[int]) -> list[_Cell]:
-    """Cuts space by a sample, which is computed now, and divides the boxes, which waits."""
-    parts = sum(len(each.parts) for each in sets)
-    count_of_cells = _arguments.whole("cells", 4 * parts if cells is None else cells, least=1)
-    step = max(1, sum(each.begins[-1] for each in sets) // (count_of_cells * _SAMPLE_OF_A_CELL))
-    margins = [[values.get("margin", 0.0) for values in each.values] for each in sets]
+def _margins_of(sets: list[BoxParts]) -> list[list[Any]]:
+    """For each set the margins of each part."""
+    return [[values.get("margin", 0.0) for values in each.values] for each in sets]
+
+
+def _partition_of(sets: list[BoxParts], cells: int, distance: float) -> Partition:
+    """Cuts space into about so many cells, by a sample of the boxes, which is computed now."""
+    step = max(1, sum(each.begins[-1] for each in sets) // (cells * _SAMPLE_OF_A_CELL))
     samples = compute(
         *[
             delayed(_sample)(part, own, step, place)
-            for each, all in zip(sets, margins)
-            for part, own, place in zip(each.parts, all, each.places)
+            for each, margins in zip(sets, _margins_of(sets))
+            for part, own, place in zip(each.parts, margins, each.places)
         ]
     )
     rows, apart = (np.concatenate(column) for column in zip(*samples))
-    partition = Partition(rows, cells=count_of_cells, distance=distance, margin=apart)
-    greatest = delayed(max)([delayed(_greatest)(own) for all in margins for own in all])
-    plan = delayed(_Plan)(partition, distance, greatest)
-    divided = [
-        [
-            delayed(_divide)(part, values, plan, begin=begin, place=place)
-            for part, values, begin, place in zip(each.parts, each.values, each.begins, each.places)
-        ]
-        for each in sets
+    return Partition(rows, cells=cells, distance=distance, margin=apart)
+
+
+def _divided(each: BoxParts, plan: Any) -> list[Any]:
+    """For each part of a set the task that divides its boxes among the cells."""
+    return [
+        delayed(_divide)(part, values, plan, begin=begin, place=place)
+        for part, values, begin, place in zip(each.parts, each.values, each.begins, each.places)
     ]
+
+
+def _cells_of(sets: list[BoxParts], distance: float, cells: Optional[int]) -> list[_Cell]:
+    """The cells of space, by a sample that is computed now, and tasks for the boxes in each, which wait."""
+    parts = sum(len(each.parts) for each in sets)
+    wanted = _arguments.whole("cells", 4 * parts if cells is None else cells, least=1)
+    partition = _partition_of(sets, wanted, distance)
+    greatest = delayed(max)([delayed(_greatest)(own) for margins in _margins_of(sets) for own in margins])
+    plan = delayed(_Plan)(partition, distance, greatest)
+    divided = [_divided(each, plan) for each in sets]
     pick = delayed(_picked)
     return [
         _Cell(bounds, [[pick(part, number) for part in parts] for parts in divided])
@@ -302,9 +313,9 @@ def overlaps(
     array([[0, 1],
            [1, 2]], dtype=uint32)
     """
-    settings, sets, divided = _planned(locals())
+    settings, sets, planned = _planned(locals())
     dtype = "uint32" if max(sum(each.sizes) for each in sets) <= 2**32 else "uint64"
-    merged = _merged(divided, settings, (sets[0].begins, dtype))
+    merged = _merged(planned, settings, (sets[0].begins, dtype))
     if output is not None:
         return _written(merged, output)
     chunks = [from_delayed(pairs, (np.nan, 2), dtype=dtype) for pairs in merged]
@@ -334,6 +345,6 @@ def count(
     >>> allpairs.dask.count(dask.array.zeros((1000, 6), chunks=(300, 6)))  # all in one place
     499500
     """
-    settings, _, divided = _planned(locals())
-    counts: Iterable[int] = compute(*[delayed(_count)(cell.sets, cell.bounds, settings) for cell in divided])
+    settings, _, planned = _planned(locals())
+    counts: Iterable[int] = compute(*[delayed(_count)(cell.sets, cell.bounds, settings) for cell in planned])
     return sum(counts)
