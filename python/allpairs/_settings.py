@@ -90,9 +90,10 @@ def two_sets(values: dict[str, Any]) -> tuple[_core.Boxes, _core.Boxes, _core.Op
     for name, margin, prefix in zip(("first", "second"), own["margin"], prefixes):
         lower, upper = _arguments.two_corners(values[name], prefix)
         sets.append(_arguments.box_set(lower, upper, margin, depth, prefix, **_taken(values)))
-    options = options_of(values, common_axes(*sets, ("the boxes of the first set", "those of the second")))
-    set_ignored(options, values["ignore"], len(sets[0].boxes), len(sets[1].boxes))
+    first, second = sets
+    options = options_of(values, common_axes(first, second, ("the boxes of the first set", "those of the second")))
+    set_ignored(options, values["ignore"], len(first.boxes), len(second.boxes))
     for i, side in enumerate((_core.Side.FIRST, _core.Side.SECOND)):
         of_side = {name: pair[i] for name, pair in own.items()}
         set_filter(options, side, of_side, _labels_of(sets[i].boxes, prefixes[i]))
-    return sets[0].boxes, sets[1].boxes, options
+    return first.boxes, second.boxes, options
