@@ -414,6 +414,12 @@ typedef struct allpairs_ids {
 ALLPAIRS_C_API allpairs_status allpairs_world_add(allpairs_world* world, const allpairs_set* boxes,
                                                   const allpairs_properties* properties, uint32_t* ids);
 
+/// The same with properties of its own for each box of the set.
+///
+/// Bad input: a margin that is NaN or -infinity is an ALLPAIRS_INVALID_BOX; no box is added then.
+ALLPAIRS_C_API allpairs_status allpairs_world_add_each(allpairs_world* world, const allpairs_set* boxes,
+                                                       const allpairs_properties* properties, uint32_t* ids);
+
 /// Sets the bounds of box ids[k] to those of box k of the set.
 ALLPAIRS_C_API allpairs_status allpairs_world_move(allpairs_world* world, allpairs_ids ids, const allpairs_set* boxes);
 

@@ -64,7 +64,8 @@ class Calls {
     static constexpr std::array<Operation, 7> kRarer{&Calls::findInto,    &Calls::findRows,  &Calls::findInWorlds,
                                                      &Calls::addToWorlds, &Calls::setWorlds, &Calls::restrictQueries,
                                                      &Calls::shrink};
-    static constexpr std::array<Operation, 3> kRarest{&Calls::tellOfWorld, &Calls::moveByVelocities, &Calls::stop};
+    static constexpr std::array<Operation, 4> kRarest{&Calls::tellOfWorld, &Calls::moveByVelocities, &Calls::stop,
+                                                      &Calls::addEachBox};
     const std::uint8_t choice = m_choices.byte();
     if (choice >= 250) return (this->*kRarest[choice % kRarest.size()])();
     const bool isRarer = choice >= 160;
@@ -231,12 +232,14 @@ class Calls {
     if (before > 400) return;
     const allpairs_properties given = properties();
     std::vector<std::uint32_t> ids(allpairs_set_size(handle.set));
-    const allpairs_status status =
-        checked(allpairs_world_add(world, handle.set, maybeNull(&given), maybeNull(ids.data())));
-    const bool isDone = status == ALLPAIRS_OK;
-    require(allpairs_world_size(world) == before + (isDone ? ids.size() : 0), "boxes are added all or not at all");
-    for (const std::uint32_t id : ids)
-      require(!isDone || allpairs_world_contains(world, id), "what was added is there");
+    requireAdded(world, before, ids,
+                 checked(allpairs_world_add(world, handle.set, maybeNull(&given), maybeNull(ids.data()))));
+  }
+
+  void addEachBox() {
+    allpairs_world* world = anyWorld();
+    const SetHandle& handle = anySet();
+    if (allpairs_world_size(world) <= 400) addEach(world, handle.set, properties());
   }
 
   /// Each as likely.
@@ -255,8 +258,7 @@ class Calls {
     std::vector<std::uint32_t> ids(numbers.size());
     const allpairs_status status =
         checked(allpairs_world_add_to_worlds(world, handle.set, maybeNull(&membership), ids.data()));
-    const bool isDone = status == ALLPAIRS_OK;
-    require(allpairs_world_size(world) == before + (isDone ? ids.size() : 0), "boxes are added all or not at all");
+    requireAdded(world, before, ids, status);
   }
 
   void setWorlds() {

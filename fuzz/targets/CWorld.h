@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "CSearch.h"
 
@@ -23,6 +24,22 @@ inline void compareResults(allpairs_world* world, const allpairs_step& step) {
   }
   require(sums[0] == step.pairs.count && sums[1] + sums[2] == sums[0], "each pair of a step is of one world");
   require(sums[1] - step.began.count == sums[3] - step.ended.count, "what changes its world ends there, begins here");
+}
+
+/// What is added is there, and all of it or nothing.
+inline void requireAdded(const allpairs_world* world, std::size_t before, const std::vector<std::uint32_t>& ids,
+                         allpairs_status status) {
+  const bool isDone = status == ALLPAIRS_OK;
+  require(allpairs_world_size(world) == before + (isDone ? ids.size() : 0), "boxes are added all or not at all");
+  for (const std::uint32_t id : ids) require(!isDone || allpairs_world_contains(world, id), "what was added is there");
+}
+
+/// Boxes that are added with these properties.
+inline void addEach(allpairs_world* world, const allpairs_set* set, const allpairs_properties& properties) {
+  const std::size_t before = allpairs_world_size(world);
+  const std::vector<allpairs_properties> each(allpairs_set_size(set), properties);
+  std::vector<std::uint32_t> ids(each.size());
+  requireAdded(world, before, ids, checked(allpairs_world_add_each(world, set, each.data(), ids.data())));
 }
 
 inline void compareFirst(const allpairs_hit& first, const allpairs_hits& all) {

@@ -27,9 +27,10 @@ from ._partition import (
     overlaps_between_in_cell,
     overlaps_in_cell,
 )
+from ._queries import NO_BOX
 from ._scene import Detection, Model, Remark, Scene, detect, load
 from ._search import batches, batches_between, count, count_between, instruction_sets, overlaps, overlaps_between
-from ._world import EVERY_WORLD, NO_BOX, Step, World, WorldStatistics
+from ._world import EVERY_WORLD, Step, World, WorldStatistics
 from ._worlds import count_in_worlds, overlaps_in_worlds
 
 __all__ = [

@@ -10,6 +10,13 @@ BoxProperties propertiesOf(const allpairs_properties& given) {
   return {given.category, given.mask, given.group, given.margin, given.is_static};
 }
 
+std::vector<BoxProperties> propertiesOf(std::span<const allpairs_properties> given) {
+  std::vector<BoxProperties> each;
+  each.reserve(given.size());
+  for (const allpairs_properties& one : given) each.push_back(propertiesOf(one));
+  return each;
+}
+
 allpairs_properties toC(const BoxProperties& properties) {
   return {properties.category, properties.mask, properties.group, properties.margin, properties.isStatic};
 }
@@ -88,6 +95,15 @@ allpairs_status allpairs_world_add(allpairs_world* world, const allpairs_set* bo
   });
 }
 
+allpairs_status allpairs_world_add_each(allpairs_world* world, const allpairs_set* boxes,
+                                        const allpairs_properties* properties, uint32_t* ids) {
+  return guarded([&] {
+    const allpairs::BoxView& set = required(boxes, "boxes").boxes;
+    const std::vector<allpairs::BoxProperties> each = propertiesOf(requiredSpan(properties, set.size(), "properties"));
+    worldOf(world).add(set, each, requiredSpan(ids, set.size(), "ids"));
+  });
+}
+
 allpairs_status allpairs_world_add_to_worlds(allpairs_world* world, const allpairs_set* boxes,
                                              const allpairs_membership* membership, uint32_t* ids) {
   return guarded([&] {
@@ -131,14 +147,9 @@ allpairs_status allpairs_world_clear(allpairs_world* world) {
 allpairs_status allpairs_world_set_properties(allpairs_world* world, allpairs_ids ids,
                                               const allpairs_properties* properties) {
   return guarded([&] {
-    const std::span<const allpairs_properties> given = requiredSpan(properties, ids.count, "properties");
-    std::vector<allpairs::BoxProperties> each;
-    each.reserve(given.size());
+    std::vector<allpairs::BoxProperties> each = propertiesOf(requiredSpan(properties, ids.count, "properties"));
     const std::span<const allpairs::BoxId> chosen = idsOf(ids);
-    for (std::size_t i = 0; i < given.size(); ++i) {
-      each.push_back(propertiesOf(given[i]));
-      each.back().world = propertiesIn(worldOf(world), chosen[i]).world;
-    }
+    for (std::size_t i = 0; i < each.size(); ++i) each[i].world = propertiesIn(worldOf(world), chosen[i]).world;
     worldOf(world).setProperties(chosen, each);
   });
 }

@@ -173,6 +173,8 @@ TEST(FailedAllocationInC, OfWorldsChanges) {
   for (allpairs_properties& p : properties) p.margin = 0.25;
   allpairs_step step;
   check([&](Handles& h) { return allpairs_world_add(h.world, h.other, nullptr, added.data()); });
+  const std::vector<allpairs_properties> each(kBoxes, properties[0]);
+  check([&](Handles& h) { return allpairs_world_add_each(h.world, h.other, each.data(), added.data()); });
   check([&](Handles& h) { return allpairs_world_reserve(h.world, 5 * kBoxes); });
   check([&](Handles& h) { return allpairs_world_move_swept(h.world, {h.ids.data(), kBoxes}, h.set, h.other); });
   const allpairs_velocities velocities{Handles::otherRows().data(), 0.1};

@@ -15,6 +15,7 @@ typedef struct Stop {
   size_t asked;
   allpairs_search* search;
   allpairs_world* world;
+  allpairs_elements* elements;
 } Stop;
 
 static bool ask(void* context) {
@@ -36,6 +37,13 @@ static bool ask(void* context) {
     ALLPAIRS_CHECK(allpairs_world_clear(stop->world) == ALLPAIRS_INVALID_ARGUMENT);
     ALLPAIRS_CHECK(allpairs_world_find_overlapping(stop->world, rows, NULL, &found) == ALLPAIRS_INVALID_ARGUMENT);
     ALLPAIRS_CHECK(allpairs_world_find_between(stop->world, stop->world, &pairs) == ALLPAIRS_INVALID_ARGUMENT);
+  }
+  if (stop->elements != NULL) {
+    allpairs_element_counts counts;
+    ALLPAIRS_CHECK(allpairs_elements_before(stop->elements, 1, &counts) == ALLPAIRS_OK);
+    ALLPAIRS_CHECK(allpairs_elements_find(stop->elements, ALLPAIRS_EDGE_EDGE, &pairs) == ALLPAIRS_INVALID_ARGUMENT);
+    ALLPAIRS_CHECK(allpairs_elements_move_f64(stop->elements, 0, rows, rows) == ALLPAIRS_INVALID_ARGUMENT);
+    ALLPAIRS_CHECK(allpairs_elements_shrink(stop->elements) == ALLPAIRS_INVALID_ARGUMENT);
   }
   if (stop->left == 0) return true;
   --stop->left;
@@ -83,7 +91,7 @@ static void searchesEnd(const allpairs_set* set) {
   allpairs_overlap_statistics statistics;
   allpairs_pairs pairs;
   uint64_t expected = 0;
-  Stop stop = {0, 0, NULL, NULL};
+  Stop stop = {0, 0, NULL, NULL, NULL};
   allpairs_options options = allpairs_default_options();
   options.stop = ask;
   options.stop_context = &stop;
@@ -141,7 +149,7 @@ static allpairs_status queryEach(allpairs_world* world, const allpairs_set* set,
 static void stepsAndQueriesEnd(const allpairs_set* set) {
   allpairs_world* world = NULL;
   allpairs_step step;
-  Stop stop = {SIZE_MAX, 0, NULL, NULL};
+  Stop stop = {SIZE_MAX, 0, NULL, NULL, NULL};
   allpairs_world_options options = {.struct_size = sizeof options, .stop = ask, .stop_context = &stop};
   ALLPAIRS_CHECK(allpairs_world_create(&options, &world) == ALLPAIRS_OK);
   ALLPAIRS_CHECK(allpairs_world_add(world, set, NULL, ids) == ALLPAIRS_OK);
@@ -197,10 +205,11 @@ static void candidatesEnd(void) {
   allpairs_elements* elements = NULL;
   allpairs_pairs pairs;
   uint64_t count = 0;
-  Stop stop = {0, 0, NULL, NULL};
+  Stop stop = {0, 0, NULL, NULL, NULL};
   allpairs_elements_options options = {.struct_size = sizeof options, .stop = ask, .stop_context = &stop};
   ALLPAIRS_CHECK(allpairs_elements_create(&mesh, 1, &options, &elements) == ALLPAIRS_OK);
   ALLPAIRS_CHECK(allpairs_elements_move_f64(elements, 0, rows, rows) == ALLPAIRS_OK);
+  stop.elements = elements;
   ALLPAIRS_CHECK(allpairs_elements_find(elements, ALLPAIRS_EDGE_EDGE, &pairs) == ALLPAIRS_STOPPED);
   ALLPAIRS_CHECK(allpairs_elements_count(elements, ALLPAIRS_FACE_FACE, &count) == ALLPAIRS_STOPPED);
   stop.left = SIZE_MAX;

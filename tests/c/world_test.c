@@ -108,6 +108,30 @@ static bool areEqual(const allpairs_properties* a, const allpairs_properties* b)
          a->is_static == b->is_static;
 }
 
+/// Boxes that are added with their properties have these; those that are refused are not there.
+static void anotherWorldHoldsTheSame(const allpairs_set* set, const allpairs_properties* properties, uint32_t count) {
+  uint32_t given[40];
+  allpairs_properties got, wrong[40];
+  allpairs_world* world = NULL;
+  ALLPAIRS_CHECK(allpairs_world_create(NULL, &world) == ALLPAIRS_OK);
+  memcpy(wrong, properties, count * sizeof *wrong);
+  wrong[5].margin = NAN;
+  ALLPAIRS_CHECK(allpairs_world_add_each(world, set, wrong, given) == ALLPAIRS_INVALID_BOX);
+  ALLPAIRS_CHECK(allpairs_error_index() == 5 && allpairs_world_size(world) == 0);
+  ALLPAIRS_CHECK(allpairs_world_add_each(world, set, NULL, given) == ALLPAIRS_INVALID_ARGUMENT);
+  ALLPAIRS_CHECK(strstr(allpairs_error_message(), "properties is null") != NULL);
+  ALLPAIRS_CHECK(allpairs_world_add_each(world, set, properties, NULL) == ALLPAIRS_INVALID_ARGUMENT);
+  ALLPAIRS_CHECK(allpairs_world_add_each(world, NULL, properties, given) == ALLPAIRS_INVALID_ARGUMENT);
+  ALLPAIRS_CHECK(allpairs_world_add_each(NULL, set, properties, given) == ALLPAIRS_INVALID_ARGUMENT);
+  ALLPAIRS_CHECK(allpairs_world_add_each(world, set, properties, given) == ALLPAIRS_OK);
+  ALLPAIRS_CHECK(allpairs_world_size(world) == count);
+  for (uint32_t i = 0; i < count; ++i) {
+    ALLPAIRS_CHECK(given[i] == i && allpairs_world_properties(world, i, &got) == ALLPAIRS_OK);
+    ALLPAIRS_CHECK(areEqual(&got, &properties[i]));
+  }
+  allpairs_world_destroy(world);
+}
+
 /// A world says what it has been given: of boxes that all have something else.
 static void whatAWorldHoldsCanBeAsked(void) {
   enum { kMany = 40 };
@@ -134,6 +158,7 @@ static void whatAWorldHoldsCanBeAsked(void) {
     ALLPAIRS_CHECK(allpairs_world_properties(world, given[i], &got) == ALLPAIRS_OK && areEqual(&got, &properties[i]));
     ALLPAIRS_CHECK(allpairs_world_number(world, given[i], &number) == ALLPAIRS_OK && number == numbers[i]);
   }
+  anotherWorldHoldsTheSame(set, properties, kMany);
   const uint32_t gone[3] = {0, 8, kMany - 1};
   const allpairs_ids removed = {gone, 3};
   ALLPAIRS_CHECK(allpairs_world_remove(world, removed) == ALLPAIRS_OK);
