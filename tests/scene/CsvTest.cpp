@@ -72,8 +72,7 @@ TEST(Csv, AQuotedNameMayHaveLineBreaks) {
 
 TEST(Csv, AnEmptyFileHoldsNoBoxes) { EXPECT_EQ(readText("# nothing\n"), std::vector<Named>{}); }
 
-TEST(Csv, OfSemicolonsAHintIsGivenWhereNothingIsSeparatedByCommas) {
-  const std::string hint = "; commas separate them, not semicolons";
+TEST(Csv, WhatSeparatesNumbersInPlaceOfCommasIsNamed) {
   const auto problemOf = [](const std::string& text) {
     try {
       (void)readText(text);
@@ -82,9 +81,20 @@ TEST(Csv, OfSemicolonsAHintIsGivenWhereNothingIsSeparatedByCommas) {
     }
     return std::string();
   };
-  EXPECT_EQ(problemOf("1;2;3;4;5;6\n"), "has 1 column where a box has 6, or 7 with a name" + hint);
-  EXPECT_EQ(problemOf("1 2 3 4 5 6\n"), "has 1 column where a box has 6, or 7 with a name");
+  const std::string column = "has 1 column where a box has 6, or 7 with a name";
+  EXPECT_EQ(problemOf("1;2;3;4;5;6\n"), column + "; commas separate them, not semicolons");
+  EXPECT_EQ(problemOf("a\t1\t2\t3\t4\t5\t6\n"), column + "; commas separate them, not tabs");
+  EXPECT_EQ(problemOf("1.0e+00 2 3  4 5 6\n"), column + "; commas separate them, not spaces");
+  EXPECT_EQ(problemOf("minx\tminy\tminz\tmaxx\tmaxy\tmaxz\n"), column + "; commas separate them, not tabs");
+  EXPECT_EQ(problemOf("0;0;0;1,5;1,5;1\n"),
+            "has 3 columns where a box has 6, or 7 with a name; commas separate them, not semicolons");
+  EXPECT_EQ(problemOf("1,2,3,4,5,6\n1;2;3;4;5;6\n"),
+            "has 1 column where the lines before have 6; commas separate them, not semicolons");
+  EXPECT_EQ(problemOf("0,5;1,5;2,5;3,5;4,5;5,5\n"), "'5;1' is not a number; commas separate numbers, not semicolons");
+  EXPECT_EQ(problemOf("0,5\t1,5\t2,5\t3,5\t4,5\t5\n"),
+            R"('5\x091' is not a number; commas separate numbers, not tabs)");
   EXPECT_EQ(problemOf("a;b,1\n"), "has 2 columns where a box has 6, or 7 with a name");
+  EXPECT_EQ(problemOf("part 1 2,1,2,3,4\n"), "has 5 columns where a box has 6, or 7 with a name");
 }
 
 TEST(Csv, ASignIsThereOnce) {

@@ -42,14 +42,23 @@ std::optional<std::size_t> coordinateOf(std::string_view word) {
   return std::nullopt;
 }
 
+std::string columnsText(const std::vector<CsvField>& fields) {
+  return "has " + std::to_string(fields.size()) + (fields.size() == 1 ? " column" : " columns");
+}
+
+/// Of a line with too few or too many columns: what stands where commas should.
+std::string separatorHint(const std::vector<CsvField>& fields) {
+  for (const CsvField& field : fields) {
+    const std::string separator = otherSeparator(field.text);
+    if (!separator.empty()) return "; commas separate them, not " + separator;
+  }
+  return {};
+}
+
 /// The layout of a file without a header: six numbers, or seven columns of which the first or the last is a name.
 CsvLayout layoutOfData(const std::vector<CsvField>& fields, const TextPlace& place) {
   if (fields.size() != kCoordinates && fields.size() != kCoordinates + 1) {
-    const bool hasSemicolons = fields.size() == 1 && fields.front().text.find(';') != std::string::npos;
-    throw FileError(place.file,
-                    "has " + std::to_string(fields.size()) + (fields.size() == 1 ? " column" : " columns") +
-                        " where a box has 6, or 7 with a name" +
-                        (hasSemicolons ? "; commas separate them, not semicolons" : ""),
+    throw FileError(place.file, columnsText(fields) + " where a box has 6, or 7 with a name" + separatorHint(fields),
                     place.line);
   }
   CsvLayout layout{.columns = fields.size()};
@@ -57,6 +66,7 @@ CsvLayout layoutOfData(const std::vector<CsvField>& fields, const TextPlace& pla
   if (fields.size() == kCoordinates + 1) {
     const bool nameIsLast = !isCsvNumber(fields.back()) && isCsvNumber(fields.front());
     if (isCsvNumber(fields.back()) && isCsvNumber(fields.front())) {
+      for (const CsvField& field : fields) static_cast<void>(csvNumber(field, place));  // 0,5;1,5;2,5;3,5;4,5;5,5
       throw FileError(place.file,
                       "has seven numbers, of which the first or the last is a name: begin the file with the line "
                       "name,minx,miny,minz,maxx,maxy,maxz, or with the name last",
@@ -127,8 +137,8 @@ class CsvReader {
   void readBox() {
     if (m_fields.size() != m_layout.columns) {
       throw FileError(m_place.file,
-                      "has " + std::to_string(m_fields.size()) + " columns where the lines before have " +
-                          std::to_string(m_layout.columns),
+                      columnsText(m_fields) + " where the lines before have " + std::to_string(m_layout.columns) +
+                          separatorHint(m_fields),
                       m_place.line);
     }
     m_scope.takeElements(2, kCoordinates * sizeof(double));  // once more when it is finished

@@ -2,8 +2,10 @@
 #include "boxes/CsvLine.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "allpairs/scene/FileError.h"
 #include "input/Words.h"
@@ -73,12 +75,35 @@ void splitCsvLine(std::string_view line, const TextPlace& place, std::vector<Csv
   while (position < line.size()) fields.push_back(takeField(line, ++position, place));
 }
 
+std::string otherSeparator(std::string_view text) {
+  constexpr std::size_t kCoordinates = 6;
+  constexpr std::array<std::pair<char, const char*>, 3> kSeparators{
+      {{';', "semicolons"}, {'\t', "tabs"}, {' ', "spaces"}}};
+  for (const auto& [sign, name] : kSeparators) {
+    const auto separates = [sign = sign](char c) { return c == sign; };
+    std::size_t words = 0;
+    std::size_t numbers = 0;
+    std::string_view rest = text;
+    for (auto word = takeWord(rest, separates); !word.empty(); word = takeWord(rest, separates)) {
+      ++words;
+      if (parseNumber(trimmed(word))) ++numbers;
+    }
+    const bool isInNames = sign == ' ';  // part 1 2
+    if (words >= kCoordinates || (numbers > 1 && !isInNames)) return name;
+  }
+  return {};
+}
+
 bool isCsvNumber(const CsvField& field) { return parseNumber(field.text).has_value(); }
 
 double csvNumber(const CsvField& field, const TextPlace& place) {
   if (field.text.empty()) throw FileError(place.file, "a number is missing", place.line, field.column);
   const std::optional<double> value = parseNumber(field.text);
-  if (!value) throw FileError(place.file, "'" + field.text + "' is not a number", place.line, field.column);
+  if (!value) {
+    const std::string separator = otherSeparator(field.text);
+    const std::string hint = separator.empty() ? "" : "; commas separate numbers, not " + separator;
+    throw FileError(place.file, "'" + field.text + "' is not a number" + hint, place.line, field.column);
+  }
   if (std::isnan(*value)) throw FileError(place.file, "is not a number (NaN)", place.line, field.column);
   if (std::isinf(*value) && field.text.find_first_of("0123456789") != std::string::npos) {
     throw FileError(place.file, field.text + " is too large for a float64", place.line, field.column);

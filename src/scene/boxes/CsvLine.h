@@ -40,6 +40,9 @@ void splitCsvLine(std::string_view line, const TextPlace& place, std::vector<Csv
 /// Bad input: an empty field, NaN, or anything that isn't one number throws FileError.
 [[nodiscard]] double csvNumber(const CsvField& field, const TextPlace& place);
 
+/// What separates numbers in a text where commas should: "semicolons", "tabs" or "spaces"; empty where nothing does.
+[[nodiscard]] std::string otherSeparator(std::string_view text);
+
 /// Whether the field holds a number, NaN included.
 [[nodiscard]] bool isCsvNumber(const CsvField& field);
 
