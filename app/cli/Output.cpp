@@ -3,9 +3,11 @@
 
 #include <fcntl.h>
 #include <sys/stat.h>
+#include <sys/statvfs.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <limits>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -121,6 +123,17 @@ Output::~Output() {
 
 bool Output::isTerminal() const { return ::isatty(m_descriptor) == 1; }
 
+void Output::requireRoom(std::uint64_t bytes) const {
+  constexpr auto kMost = std::numeric_limits<std::uint64_t>::max();
+  struct stat status {};
+  struct statvfs disk {};
+  if (::fstat(m_descriptor, &status) != 0 || !S_ISREG(status.st_mode)) return;  // a pipe or a device takes any
+  if (::fstatvfs(m_descriptor, &disk) != 0 || disk.f_frsize == 0 || disk.f_bavail > kMost / disk.f_frsize) return;
+  const std::uint64_t room = std::uint64_t{disk.f_bavail} * disk.f_frsize;
+  if (bytes > room)
+    throw FileError(name(), "its disk has " + mebibytes(room) + " left, and the result needs " + mebibytes(bytes));
+}
+
 void Output::write(std::string_view bytes) {
   while (!bytes.empty()) {
     const ssize_t written = ::write(m_descriptor, bytes.data(), bytes.size());
@@ -145,11 +158,12 @@ void Output::commit() {
   m_temporary.clear();
 }
 
+fs::path Output::name() const { return m_target.empty() ? "standard output" : m_target; }
+
 void Output::fail(const char* action) const {
   const int problem = errno;
   if (problem == EPIPE) throw ClosedPipe();
-  const std::string name = m_target.empty() ? "standard output" : m_target.string();
-  throw FileError::ofSystem(name, std::string("cannot be ") + action, {problem, std::generic_category()});
+  throw FileError::ofSystem(name(), std::string("cannot be ") + action, {problem, std::generic_category()});
 }
 
 }  // namespace allpairs::app

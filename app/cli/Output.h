@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -25,6 +26,10 @@ class Output {
   [[nodiscard]] bool isTerminal() const;
   /// Whether it becomes a file, beside which others may lie: no pipe, no device, and no descriptor.
   [[nodiscard]] bool isFile() const { return m_isNameless || !m_temporary.empty(); }
+
+  /// Of a result whose size is known before it is made: a disk with less room than that is an error at once.
+  void requireRoom(std::uint64_t bytes) const;
+
   void write(std::string_view bytes);
 
   /// All of commit() but to put the file in its place, which then takes no memory: of files that appear together.
@@ -39,6 +44,7 @@ class Output {
   void openBeside();
   void openNamed(const std::filesystem::path& place);
   void giveName();
+  [[nodiscard]] std::filesystem::path name() const;
   [[noreturn]] void fail(const char* action) const;
 
   std::filesystem::path m_target;  ///< Empty for standard output.

@@ -27,6 +27,8 @@ std::string counted(std::uint64_t count, const std::string& noun, const std::str
   return fmt::format("{} {}{}", grouped(count), noun, count == 1 ? "" : "s");
 }
 
+std::string mebibytes(std::uint64_t bytes) { return grouped((bytes >> 20) + 1) + " MiB"; }
+
 std::string countedBoxes(std::uint64_t first, std::uint64_t second) {
   return fmt::format("{} and {}", grouped(first), counted(second, "box", "boxes"));
 }
@@ -40,6 +42,7 @@ std::string betweenQuotes(std::string_view text) {
 }
 
 std::string shellWord(const std::string& text) {
+  if (text.starts_with('-')) return shellWord("./" + text);
   constexpr std::string_view kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./,:=@%+";
   const auto isPlain = [&kPlain](char c) {
     return static_cast<unsigned char>(c) >= 0x80 || kPlain.find(c) != std::string_view::npos;

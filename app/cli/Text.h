@@ -18,6 +18,9 @@ namespace allpairs::app {
 /// `count` and the noun, in the plural unless it is 1: "3 boxes".
 [[nodiscard]] std::string counted(std::uint64_t count, const std::string& noun, const std::string& plural = {});
 
+/// A size: "1,234 MiB".
+[[nodiscard]] std::string mebibytes(std::uint64_t bytes);
+
 /// The boxes of two sets: "400 and 300 boxes".
 [[nodiscard]] std::string countedBoxes(std::uint64_t first, std::uint64_t second);
 
@@ -27,7 +30,8 @@ namespace allpairs::app {
 /// The text as it has to stand between single quotes in a shell of Bourne's kind.
 [[nodiscard]] std::string betweenQuotes(std::string_view text);
 
-/// The text as one word of a shell's command line: quoted where it contains spaces or other special characters.
+/// The text as one word of a shell's command line: quoted where it contains spaces or other special characters; a file such as -x as ./-x,
+/// which is no option.
 [[nodiscard]] std::string shellWord(const std::string& text);
 
 /// A coordinate with six digits, or with as many as it takes to tell hundredths apart.

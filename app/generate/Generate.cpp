@@ -81,6 +81,14 @@ void writeFrames(const GenerateSettings& settings, Output& output) {
   }
 }
 
+/// Of all numbers; as many as can be told where that is more.
+std::uint64_t bytesOf(const GenerateSettings& settings) {
+  const std::uint64_t frame = settings.scene.count * 6 * sizeof(float);
+  const std::uint64_t frames = isMotion(settings.scene.scene) ? settings.frames : 1;
+  const bool isTooMuch = frame != 0 && frames > std::numeric_limits<std::uint64_t>::max() / frame;
+  return isTooMuch ? std::numeric_limits<std::uint64_t>::max() : frames * frame;
+}
+
 void checkScene(const GenerateSettings& settings) {
   const SceneArguments& scene = settings.scene;
   if (isMotion(scene.scene)) {
@@ -103,6 +111,7 @@ void runGenerate(const GenerateSettings& settings) {
   if (output.isTerminal()) {
     throw UsageError("boxes are binary and are not written to a terminal: use -o FILE, or redirect the output");
   }
+  output.requireRoom(bytesOf(settings));
   isMotion(settings.scene.scene) ? writeFrames(settings, output) : writeBoxes(settings.scene, output);
   output.commit();
   if (!settings.output.empty()) sayWritten(counted(settings.scene.count, "box", "boxes"), settings.output);

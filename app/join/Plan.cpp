@@ -53,12 +53,10 @@ std::string planText(const join::JoinSummary& plan, const JoinArguments& argumen
   text += fmt::format("copies   {} of boxes in more than one cell\n", grouped(plan.copies));
   text += fmt::format("wide     {} in many cells, kept apart\n", grouped(plan.wideBoxes));
   text += fmt::format("pairs    about {}\n", grouped(plan.pairs));
-  text += fmt::format("disk     {} MiB for boxes, about {} MiB for pairs\n", grouped((plan.boxBytes >> 20) + 1),
-                      grouped((plan.pairBytes >> 20) + 1));
-  return text + fmt::format("result   about {} MiB\n", grouped((plan.pairBytes >> 20) + 1));
+  text +=
+      fmt::format("disk     {} for boxes, about {} for pairs\n", mebibytes(plan.boxBytes), mebibytes(plan.pairBytes));
+  return text + fmt::format("result   about {}\n", mebibytes(plan.pairBytes));
 }
-
-std::string mebibytes(std::uint64_t bytes) { return grouped((bytes >> 20) + 1) + " MiB"; }
 
 std::string ranksText(const join::RanksPlan& plan, const PlanSettings& settings) {
   std::string text =

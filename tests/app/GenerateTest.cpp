@@ -96,5 +96,22 @@ TEST(Generate, ThatCannotWriteLeavesNoFile) {
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
+TEST(Generate, OfMoreThanTheDiskHoldsWritesNothing) {
+  const TempFolder folder;
+  const std::string file = folder.write("frames.npy", "before");
+  std::vector<std::string> arguments{"generate", "brownian", "-n", "1e6", "--frames", "1e9", "-o", file};  // 24 PB
+  const std::string problem = " left, and the result needs 22,888,183,594 MiB";
+  expectFailure(runProgram(arguments), 3, file + ": its disk has ");
+  expectFailure(runProgram(arguments), 3, problem);
+  EXPECT_EQ(readBytes(file), "before");
+  arguments[5] = "1000000000000000000";
+  expectFailure(runProgram(arguments), 3, " left, and the result needs 17,592,186,044,416 MiB");
+  const ProgramRun redirected =
+      runScript("exec \"$0\" generate brownian -n 1e6 --frames 1e9 > '" + (folder.path() / "out").string() + "'");
+  expectFailure(redirected, 3, "standard output: its disk has ");
+  EXPECT_EQ(readBytes(folder.path() / "out"), "");
+  expectFailure(runScript("exec \"$0\" generate brownian -n 1e6 --frames 1e9 -o /dev/full"), 3, "No space left");
+}
+
 }  // namespace
 }  // namespace allpairs::test
