@@ -40,21 +40,19 @@ std::string byTodaysName(std::string_view argument) {
   return isBefore ? "--distance" + std::string(argument.substr(kBefore.size())) : std::string(argument);
 }
 
-/// What stands behind "--" is no option, though it begins like one. CLI11 knows that before the first input only.
-std::string asPath(std::string_view word) { return (word.starts_with('-') ? "./" : "") + std::string(word); }
+/// Before what stands behind "--" and begins like an option.
+constexpr std::string_view kNoOption = "././";
 
-/// Of an option that another one follows, which CLI11 takes for its file; "./" before it makes it one.
-std::string isMissing(const std::string& file) {
-  return file.size() > 1 && file.starts_with('-') ? "FILE is missing" : "";
+/// What stands behind "--" is no option. CLI11 knows that before the first input only. "-" is a file's name there.
+std::string asPath(std::string_view word) {
+  if (word == "-") return "./-";
+  return std::string(word.starts_with('-') ? kNoOption : "").append(word);
 }
-
-/// Whether it takes all files that follow it.
-bool isOfFiles(const CLI::Option& option) { return !option.get_positional() && option.get_expected_max() > 1; }
 
 std::array<CLI::Option*, 4> addValues(CLI::App& command, const std::string& prefix, ValueArguments& values) {
   const std::string start = prefix == "--" ? "Files: " : "Files of the second set: ";
   const auto add = [&](const char* name, std::vector<std::string>& files, const char* what) {
-    return command.add_option(prefix + name, files, start + what)->type_name("FILE")->check(isMissing);
+    return command.add_option(prefix + name, files, start + what)->type_name("FILE");
   };
   return {add("margins", values.margins, "how far each box extends beyond its bounds"),
           add("groups", values.groups, "each box's group; boxes of one group form no pair, except those of group 0"),
@@ -69,6 +67,13 @@ std::string namesOf(const CLI::Option& option) {
   for (std::size_t at = names.find(','); at != std::string::npos; at = names.find(',', at + 1))
     names.insert(at + 1, " ");
   return names;
+}
+
+bool isOfFiles(const CLI::Option& option) { return !option.get_positional() && option.get_expected_max() > 1; }
+
+std::string asGiven(const std::string& argument) {
+  const bool isMarked = argument.starts_with(kNoOption) && argument.substr(kNoOption.size()).starts_with('-');
+  return isMarked ? argument.substr(kNoOption.size()) : argument;
 }
 
 std::vector<std::string> joinNumbers(int count, const char* const* arguments) {
@@ -130,8 +135,7 @@ void addBoxSets(CLI::App& command, BoxSetArguments& arguments) {
   const CLI::Option* boxes =
       command.add_option("BOXES", arguments.paths, "One or more .npy files of boxes")->required();
   command.add_option("--with", arguments.with, "Files of a second set: pairs of a box of BOXES and a box of these")
-      ->type_name("FILE")
-      ->check(isMissing);
+      ->type_name("FILE");
   command.parse_complete_callback([&command, boxes] {
     const std::vector<CLI::Option*>& given = command.parse_order();
     const auto ofFiles =

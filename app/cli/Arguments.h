@@ -19,8 +19,14 @@ class Option;
 namespace allpairs::app {
 
 /// The arguments as the parser needs them: an option that takes numbers is joined with its value, which may begin with
-/// a minus and would otherwise be taken for an option. What follows "--" are paths.
+/// a minus and would otherwise be taken for an option. What follows "--" is marked where it looks like one.
 [[nodiscard]] std::vector<std::string> joinNumbers(int count, const char* const* arguments);
+
+/// An argument without that mark.
+[[nodiscard]] std::string asGiven(const std::string& argument);
+
+/// Whether it takes all files that follow it.
+[[nodiscard]] bool isOfFiles(const CLI::Option& option);
 
 /// What an option may be called, since nothing says by which name it was given: "-n, --boxes".
 [[nodiscard]] std::string namesOf(const CLI::Option& option);

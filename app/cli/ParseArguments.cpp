@@ -51,7 +51,7 @@ std::string describeExtra(const CLI::App& program) {
   const auto option =
       std::find_if(extras.begin(), extras.end(), [](const auto& extra) { return extra.starts_with('-'); });
   if (option == extras.end())
-    return "one argument too many: '" + (extras.empty() ? std::string() : extras.front()) + "'";
+    return "one argument too many: '" + (extras.empty() ? std::string() : asGiven(extras.front())) + "'";
   const std::string name = option->substr(0, option->find('='));
   std::vector<std::string> names;
   for (const CLI::Option* known : command.get_options()) {
@@ -85,16 +85,20 @@ std::string conversionProblem(const CLI::ConversionError& problem, const CLI::Ap
   throw UsageError(what + " '" + word + "'" + suggestion);
 }
 
-/// Lets nothing that the program's commands take be "", as where a variable of a script has no value: an option would be
-/// as if it was not given.
-void refuseEmptyValues(CLI::App& program) {
+/// A value as it was given. None may be "", as where a variable of a script has no value: an option would be as if it was
+/// not given. Nor is an option the file of the one before it, for which CLI11 takes it.
+std::string valueOf(const CLI::Option& option, const std::string& text) {
+  if (text.empty()) throw UsageError(namesOf(option) + ": the value is empty");
+  if (isOfFiles(option) && option.get_type_name() == "FILE" && text.size() > 1 && text.starts_with('-'))
+    throw UsageError(namesOf(option) + ": FILE is missing");
+  return asGiven(text);
+}
+
+void checkValues(CLI::App& program) {
   for (CLI::App* command : program.get_subcommands({})) {
     for (CLI::Option* option : command->get_options()) {
       if (option->get_expected_max() == 0) continue;  // a flag
-      option->transform([option](const std::string& text) {
-        if (text.empty()) throw UsageError(namesOf(*option) + ": the value is empty");
-        return text;
-      });
+      option->transform([option](const std::string& text) { return valueOf(*option, text); });
     }
   }
 }
@@ -117,7 +121,7 @@ std::vector<std::string> withoutHelpWord(const CLI::App& program, std::vector<st
 }  // namespace
 
 void parseArguments(CLI::App& program, const std::vector<std::string>& given, const Print& print) {
-  refuseEmptyValues(program);
+  checkValues(program);
   const std::vector<std::string> arguments = withoutHelpWord(program, given);
   std::vector<std::string> reversed(arguments.rbegin(), arguments.rend());  // the order that CLI11 takes
   try {

@@ -72,8 +72,13 @@ TEST(BadInput, IsOneLineThatNamesTheFileAndStatusThree) {
 TEST(BadInput, WhatStandsBehindTwoDashesIsAFile) {
   const TempFolder folder;
   const std::string path = folder.write("boxes.npy", npyBytes({cube(0, 0, 0)}));
-  expectFailure(runProgram({"detect", path, "--", "--frob"}), kBadInput, "./--frob: ");
-  expectFailure(runProgram({"detect", "--", path, "-x.npy"}), kBadInput, "./-x.npy: no such file");
+  expectFailure(runProgram({"detect", path, "--", "--frob"}), kBadInput, "allpairs: --frob: no such file");
+  expectFailure(runProgram({"detect", "--", path, "-x.npy"}), kBadInput, "allpairs: -x.npy: no such file");
+  expectFailure(runProgram({"detect", "./-x.npy"}), kBadInput, "allpairs: ./-x.npy: no such file");
+  expectFailure(runProgram({"detect", "--", "-"}), kBadInput, "allpairs: ./-: no such file");
+  expectFailure(runProgram({"join", "--count", path, "--with", "--", "--x.npy"}), kBadInput,
+                "allpairs: --x.npy: no such file");
+  expectFailure(runProgram({"generate", "uniform", "--", "--x"}), kWrongUsage, "one argument too many: '--x'");
   expectSuccess(runProgram({"detect", "--", path}));
 }
 

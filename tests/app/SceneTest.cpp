@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -115,6 +116,9 @@ TEST(DetectScene, APartialResultIsNotSilent) {
   const ProgramRun table = runProgram({"detect", "--partial", scene});
   EXPECT_EQ(table.err, warning);
   EXPECT_NE(table.out.find("'allpairs info --partial' lists them"), std::string::npos) << table.out;
+  std::filesystem::rename(scene, folder.path() / "-two.scn");
+  const ProgramRun dashed = runScript("cd '" + folder.path().string() + "' && \"$0\" detect --partial -- -two.scn");
+  EXPECT_NE(dashed.err.find("; 'allpairs info --partial ./-two.scn' lists it"), std::string::npos) << dashed.err;
 }
 
 TEST(DetectScene, APartialResultOfNothingIsBadInput) {
