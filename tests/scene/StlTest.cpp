@@ -75,6 +75,14 @@ TEST(StlMesh, BinaryFilesMayBeginWithSolid) {
   }
 }
 
+TEST(StlMesh, BinaryFilesWithMoreFacetsThanTheirHeaderSaysAreRefused) {
+  std::string bytes = binaryStl("", kTwoFacets);
+  bytes[80] = 1;
+  expectStlProblem(bytes, "mesh.stl: has 2 facets where its header says 1");
+  bytes[80] = 0;
+  expectStlProblem(bytes, "mesh.stl: has 2 facets where its header says 0");
+}
+
 TEST(StlMesh, FilesCutAnywhereAreRefused) {
   const TempFolder folder;
   const std::string text = solid("a", facetText("0 1 0") + facetText("0 0 1"));
