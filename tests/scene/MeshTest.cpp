@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: MIT
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <set>
+#include <string>
+#include <utility>
 
 #include "Expect.h"
 #include "SceneText.h"
@@ -133,7 +137,7 @@ TEST(ObjMesh, ErrorsNameTheLine) {
   expectProblem("a.obj", "v 0 0 0\nf 1 1 -2\n", "a.obj:2: index -2");
   expectProblem("a.obj", "v 0 0 0\nf 1 1 x\n", "a.obj:2: 'x' is no index");
   expectProblem("a.obj", "v 0 0 0\nf 99999999999999999999 1 1\n", "a.obj:2:");
-  expectProblem("a.obj", "", "holds no triangles, lines or points");
+  expectProblem("a.obj", "# nothing\n", "holds no triangles, lines or points");
   expectProblem("a.obj", "v 0 0 0\nsurf 0 1 0 1 1\n", "a.obj:2: 'surf' is not read");
   expectProblem("a.obj", "v 0 0 0\nfo 1 1 1\n", "a.obj:2: 'fo' is not read");
 }
@@ -313,6 +317,31 @@ TEST(MeshFolder, AFolderWithinItThatCannotBeListedIsAnErrorUnlessPartial) {
   ASSERT_EQ(scene.remarks.size(), 1U);
   EXPECT_TRUE(scene.remarks[0].isPartial);
   std::filesystem::permissions(folder.path() / "locked", std::filesystem::perms::owner_all);
+}
+
+TEST(MeshFolder, WhatCannotBeLookedAtIsAnErrorUnlessPartial) {
+  const TempFolder folder;
+  folder.write("roof.stl", kStl);
+  const std::string level(250, 'd');
+  int descriptor = ::open(folder.path().c_str(), O_RDONLY);
+  for (int i = 0; i < 17; ++i) {  // longer than a path may be
+    ASSERT_EQ(::mkdirat(descriptor, level.c_str(), 0700), 0);
+    const int next = ::openat(descriptor, level.c_str(), O_RDONLY);
+    ::close(std::exchange(descriptor, next));
+  }
+  ::close(descriptor);
+  expectFileError([&] { (void)scene::readInput(folder.path(), {.recursive = true}); },
+                  "cannot be looked at: File name");
+  const scene::Scene scene = scene::readInput(folder.path(), {.partial = true, .recursive = true});
+  EXPECT_EQ(scene.models.size(), 1U);
+  ASSERT_EQ(scene.remarks.size(), 1U);
+  EXPECT_TRUE(scene.remarks[0].isPartial);
+}
+
+TEST(Mesh, AFileWithoutAByteIsSaidToBeEmpty) {
+  const TempFolder folder;
+  for (const std::string name : {"a.obj", "a.ply", "a.stl", "a.off", "a.gltf", "a.glb", "a.dae", "a.3mf"})
+    expectFileError([path = folder.write(name, "")] { (void)scene::readInput(path); }, name + ": is empty");
 }
 
 TEST(MeshFolder, AMeshThatCannotBeReadIsAnErrorUnlessPartial) {

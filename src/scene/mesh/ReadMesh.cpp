@@ -33,6 +33,8 @@ constexpr const char* kPartialHint = "; --partial of detect, info, view and repo
 
 std::vector<MeshObject> readObjects(const fs::path& path, ReadScope& scope, MeshFrame& frame) {
   scope.admit(path);
+  std::error_code ignored;
+  if (fs::file_size(path, ignored) == 0) throw FileError(path, "is empty");
   const std::string extension = lowerExtension(path);
   if (extension == ".obj") return readObjObjects(path, scope);
   if (extension == ".ply") return readPlyObjects(path, scope);
@@ -132,6 +134,7 @@ class MeshSearch {
  private:
   /// Takes meshes, looks into folders, remarks on the rest, and lists CAD files.
   void take(const fs::path& entry, std::vector<fs::path>& cadFiles) {
+    if (!canBeLookedAt(entry)) return;
     std::error_code ignored;
     const bool isSpecial = fs::exists(entry, ignored) && !fs::is_regular_file(entry, ignored);
     if (fs::is_directory(entry, ignored)) {
@@ -145,6 +148,17 @@ class MeshSearch {
     } else {
       m_meshes.push_back(entry);
     }
+  }
+
+  /// What nobody may look at, or has too long a path, might be a mesh, or a folder of them.
+  bool canBeLookedAt(const fs::path& entry) {
+    std::error_code problem;
+    const fs::file_status status = fs::symlink_status(entry, problem);
+    if (!problem || status.type() == fs::file_type::not_found) return true;  // that which is gone is reported later
+    const FileError error = FileError::ofSystem(entry, "cannot be looked at", problem);
+    if (!m_options.partial) throw error;
+    m_remarks.push_back(remarkOfMissing(entry, error));
+    return false;
   }
 
   /// CAD files cannot be read. Where the part is not there as a mesh too, its clashes would be missing without a warning.

@@ -40,7 +40,6 @@ bool isBinary(std::string_view text) {
 }
 
 std::vector<MeshObject> readBinary(std::string_view text, const Path& path, ReadScope& scope) {
-  if (text.empty()) throw FileError(path, "is empty");
   if (text.size() < kHeaderSize) throw FileError(path, "is too short for an STL file");
   if (text.size() < binarySize(text))
     throw FileError(path, "truncated: the header promises " + std::to_string(binarySize(text)) +
