@@ -98,6 +98,12 @@ std::string summaryText(const join::JoinSummary& summary, const std::string& out
   return text + '\n';
 }
 
+/// Whether a folder that the user has not named cannot be worked in, where another may do: inputs may lie where nobody may
+/// write.
+bool isForAnotherFolder(const FileError& problem, const std::filesystem::path& work) {
+  return problem.path() == work && (problem.code() || problem.problem().starts_with("its disk has"));
+}
+
 void runJoin(const JoinSettings& settings) {
   if (!settings.hasOutput && !settings.count) throw UsageError("join takes -o FILE, or --count");
   if (settings.hasOutput && settings.count) throw UsageError("--count writes no pairs: -o has nothing to hold");
@@ -129,6 +135,8 @@ void runJoin(const JoinSettings& settings) {
           inputs, [&output](std::string_view bytes) { output.write(bytes); }, options);
     }
   } catch (const FileError& problem) {
+    if (settings.work.empty() && isForAnotherFolder(problem, options.work))
+      throw FileError(problem.path(), problem.problem() + "; --work DIR works in another folder");
     const std::filesystem::path manifest = options.work / "manifest";
     const std::vector<std::filesystem::path> read = filesOf(settings.shared.sets);
     const bool isOfInput = std::find(read.begin(), read.end(), problem.path()) != read.end();

@@ -273,6 +273,12 @@ TEST_F(JoinCommand, AWorkFolderThatCannotBeMadeIsNamedAsItWasGiven) {
   expectFailure(runProgram({"join", few, "--count", "--work", few}), kBadInput, few + ": is not a folder");
 }
 
+TEST_F(JoinCommand, AWorkFolderThatNobodyNamedMayBeAnotherOne) {
+  const std::string hint = "cannot be made: No such file or directory; --work DIR works in another folder\n";
+  expectFailure(runScript("exec 9< '" + few + "'; exec \"$0\" join /proc/self/fd/9 --count"), kBadInput, hint);
+  expectSuccess(runScript("exec 9< '" + few + "'; exec \"$0\" join /proc/self/fd/9 --count --work '" + in("w") + "'"));
+}
+
 TEST_F(JoinCommand, NamesTheBoundThatIsNoNumber) {
   boxes[7].min[2] = std::numeric_limits<double>::quiet_NaN();
   const std::string nan = folder.write("nan.npy", npyBytes(boxes)).string();
