@@ -188,6 +188,8 @@ Box parseRegion(const std::string& text) {
   for (std::size_t begin = 0; begin <= text.size(); ++count) {
     const std::size_t end = std::min(text.find(',', begin), text.size());
     const std::optional<double> value = parseNumber(std::string_view(text).substr(begin, end - begin));
+    if (!value && text.find(',') == std::string::npos)
+      throw UsageError("--box: '" + text + "' is not x0,y0,z0,x1,y1,z1, six numbers with commas between them");
     if (!value) throw UsageError("--box: '" + text.substr(begin, end - begin) + "' in '" + text + "' is not a number");
     if (count < values.size()) values[count] = *value;
     begin = end + 1;

@@ -71,6 +71,15 @@ std::vector<std::string> takeHead(std::string_view& text) {
   return head;
 }
 
+/// Of a table that a spreadsheet saved with other signs between its columns.
+std::string separatorHint(std::string_view text) {
+  const std::string_view line = text.substr(0, text.find('\n'));
+  if (line.find("number;first;second") != std::string_view::npos)
+    return "; semicolons separate its columns, not commas";
+  if (line.find("number\tfirst\tsecond") != std::string_view::npos) return "; tabs separate its columns, not commas";
+  return {};
+}
+
 /// The state of a name.
 std::optional<ExactState> stateNamed(std::string_view name) {
   for (std::size_t i = 0; i < kExactStates; ++i) {
@@ -181,8 +190,9 @@ class RowMatch {
 bool isReportCsv(std::string_view text) { return !takeHead(text).empty(); }
 
 std::vector<EarlierClash> readReportCsv(std::string_view text) {
+  const std::string hint = separatorHint(text);
   const std::vector<std::string> head = takeHead(text);
-  if (head.empty()) throw Error("is no table of a report: its first line is another");
+  if (head.empty()) throw Error("is no table of a report: its first line is another" + hint);
   const auto columnOf = [&head](std::string_view name) {
     return static_cast<std::size_t>(std::find(head.begin(), head.end(), name) - head.begin());
   };
@@ -193,10 +203,10 @@ std::vector<EarlierClash> readReportCsv(std::string_view text) {
       {{columnOf("first_file"), columnOf("first_path")}, {columnOf("second_file"), columnOf("second_path")}}};
   std::vector<EarlierClash> rows;
   std::set<std::string> known;
-  while (!text.empty()) {
+  for (std::size_t number = 2; !text.empty(); ++number) {
     std::vector<std::string> fields = takeRecord(text);
     if (fields.size() != head.size() || !isGuid(fields[guid]))
-      throw Error("is no table of a report: a line has other columns");
+      throw Error("is no table of a report: a line has other columns (row " + std::to_string(number) + ")");
     const bool isResolved = fields[0].empty();  // before that report already
     if (isResolved || !known.insert(fields[guid]).second) continue;
     EarlierClash& row = rows.emplace_back();

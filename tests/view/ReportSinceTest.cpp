@@ -236,7 +236,12 @@ TEST(ReportSince, SaysWhatIsNoReport) {
       folder.write("hostile.csv", "number,first,second,guid\n1,a,b,../../../../../../../../../../../../\n");
   expectFailure(runProgram({"report", kDemoScene, "-o", out, "--since", hostile}), 3, "a line has other columns");
   const std::string cut = folder.write("cut.csv", "number,first,second,guid\n1,a\n");
-  expectFailure(runProgram({"report", kDemoScene, "-o", out, "--since", cut}), 3, "a line has other columns");
+  expectFailure(runProgram({"report", kDemoScene, "-o", out, "--since", cut}), 3, "a line has other columns (row 2)\n");
+  const std::string semicolons = folder.write("semicolons.csv", "\xEF\xBB\xBFnumber;first;second;guid\n");
+  expectFailure(runProgram({"report", kDemoScene, "-o", out, "--since", semicolons}), 3,
+                "its first line is another; semicolons separate its columns, not commas\n");
+  const std::string tabs = folder.write("tabs.csv", "number\tfirst\tsecond\tguid\n");
+  expectFailure(runProgram({"report", kDemoScene, "-o", out, "--since", tabs}), 3, "; tabs separate its columns");
   EXPECT_FALSE(fs::exists(out));
 }
 
