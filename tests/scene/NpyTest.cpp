@@ -91,6 +91,15 @@ TEST(Npy, HugeClaimsAreRefusedBeforeAnythingIsAllocated) {
   }
 }
 
+TEST(Npy, NumbersOfTheShapeMayBeThoseOfPython2) {
+  const TempFolder folder;
+  const std::vector<Box> boxes = someBoxes();
+  const std::string count = std::to_string(boxes.size()) + "L, 6L)";
+  EXPECT_EQ(scene::readNpy(folder.write("a.npy", npyBytes(boxes, {.descr = "<f8", .shape = "(" + count}))).size(),
+            boxes.size());
+  expectNpyProblem(npyBytes({}, {.descr = "<f8", .shape = "(0LL, 6)"}), "malformed");
+}
+
 TEST(Npy, OtherShapesAreNamed) {
   expectNpyProblem(npyBytes({}, {.descr = "<f8", .shape = "(7, 5)"}), "shape (7, 5)");
   expectNpyProblem(npyBytes({}, {.descr = "<f8", .shape = "(6,)"}), "shape (6,)");

@@ -98,6 +98,7 @@ class HeaderParser {
     if (problem == std::errc::result_out_of_range) fail("a number in 'shape' is too large");
     if (problem != std::errc()) fail("'shape' holds something that is no whole number");
     m_text.remove_prefix(static_cast<std::size_t>(end - m_text.data()));
+    if (m_text.starts_with('L')) m_text.remove_prefix(1);  // 200L, as Python 2 wrote it
     return value;
   }
 
