@@ -114,6 +114,9 @@ TEST(Csv, ErrorsNameLineAndColumn) {
   expectCsvProblem("minx,miny,minz,maxx,maxy\n", "bad.csv:1: the header has no column 'maxz'");
   expectCsvProblem("minx,miny,minz,maxx,maxy,maxz,a,b\n", "bad.csv:1:33: column 'b' is not known");
   expectCsvProblem("x,y,z,dx,dy,dz\n0,0,0,1,1,1\n", "column 'y' is not known: a box has minx,miny,minz,maxx,maxy,maxz");
+  expectCsvProblem("id,name,minx,miny,minz,maxx,maxy,maxz\n",
+                   "bad.csv:1:4: column 'name' is not known: a box has minx,miny,minz,maxx,maxy,maxz and a name, for "
+                   "which 'id' is taken");
   expectCsvProblem(std::string("1,2,3,4,5,6\n1\0,\0", 16), "bad.csv:2: is no text");
   expectCsvProblem("# 8 boxes\n1,2,3,4,5,6,7\n",
                    "bad.csv:2: has seven numbers, of which the first or the last is a name");

@@ -93,8 +93,10 @@ CsvLayout layoutOfHeader(const std::vector<CsvField>& fields, const TextPlace& p
     const std::optional<std::size_t> coordinate = coordinateOf(field.text);
     std::size_t& slot = coordinate ? layout.coordinates[*coordinate] : layout.name;
     if (slot != kNoColumn) {
-      const std::string problem =
-          coordinate ? "is there twice" : "is not known: a box has minx,miny,minz,maxx,maxy,maxz";
+      const std::string problem = coordinate ? "is there twice"
+                                             : "is not known: a box has minx,miny,minz,maxx,maxy,maxz and a name, "
+                                               "for which '" +
+                                                   fields[slot].text + "' is taken";
       throw FileError(place.file, "column '" + field.text + "' " + problem, place.line, field.column);
     }
     slot = column;
