@@ -182,7 +182,7 @@ TEST(Frame, FilesThatSayOtherwiseThanThoseBeforeThemAreNamedOnce) {
             "y points up in this file, z in a file before it; coordinates are compared as they are");
   EXPECT_EQ(scene.warnings[1].subject, "unit");
   EXPECT_EQ(scene.warnings[1].reason,
-            "1 metres in this file, 0.001 metres in a file before it; coordinates are compared as they are");
+            "1 metre in this file, 0.001 metres in a file before it; coordinates are compared as they are");
   EXPECT_TRUE(readFrame("two.ifc", kIfc).warnings.empty());
 }
 

@@ -14,6 +14,11 @@ constexpr double kRounding = 1e-6;  // of a float32 that was converted
 
 std::string axisText(int up) { return std::string(up < 0 ? "-" : "") + static_cast<char>('x' + std::abs(up) - 1); }
 
+std::string metresText(double metres) {
+  const std::string text = fmt::format("{:.6g} metre", metres);
+  return text == "1 metre" ? text : text + 's';
+}
+
 bool areSame(double a, double b) { return std::abs(a - b) <= kRounding * std::abs(a); }
 
 }  // namespace
@@ -32,7 +37,7 @@ void noteFrame(Scene& scene, const std::filesystem::path& file, int up, std::opt
   if (up != 0 && scene.up != 0 && up != scene.up) warn("axes", axisText(up) + " points up", axisText(scene.up));
   if (scene.up == 0) scene.up = up;
   if (metresPerUnit && scene.metresPerUnit && !areSame(*metresPerUnit, *scene.metresPerUnit)) {
-    warn("unit", fmt::format("{:.6g} metres", *metresPerUnit), fmt::format("{:.6g} metres", *scene.metresPerUnit));
+    warn("unit", metresText(*metresPerUnit), metresText(*scene.metresPerUnit));
   }
   if (!scene.metresPerUnit) scene.metresPerUnit = metresPerUnit;
 }
