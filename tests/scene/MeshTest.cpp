@@ -338,6 +338,14 @@ TEST(MeshFolder, WhatCannotBeLookedAtIsAnErrorUnlessPartial) {
   EXPECT_TRUE(scene.remarks[0].isPartial);
 }
 
+TEST(Mesh, WhatGitLfsHasInPlaceOfAFileIsCalledThat) {
+  const TempFolder folder;
+  const std::string pointer = "version https://git-lfs.github.com/spec/v1\noid sha256:4d7a2146\nsize 12345\n";
+  for (const std::string name : {"a.obj", "a.ply", "a.stl", "a.glb", "a.dae", "a.npy", "a.csv", "a.scn"})
+    expectFileError([path = folder.write(name, pointer)] { (void)scene::readInput(path); },
+                    name + ": is what Git LFS has in place of the file: 'git lfs pull' in its folder gets the file");
+}
+
 TEST(Mesh, AFileWithoutAByteIsSaidToBeEmpty) {
   const TempFolder folder;
   for (const std::string name : {"a.obj", "a.ply", "a.stl", "a.off", "a.gltf", "a.glb", "a.dae", "a.3mf"})

@@ -16,6 +16,10 @@ namespace {
 /// Some ten milliseconds, of which most is memory that is touched for the first time.
 constexpr std::size_t kReadAtOnce = std::size_t{16} << 20;
 
+/// What a clone without Git LFS has in place of a large file: so much text, and no more than that.
+constexpr std::string_view kPointer = "version https://git-lfs.github.com/spec/v1\n";
+constexpr std::uint64_t kMostOfPointer = 1024;
+
 /// Fails for what the system has said last.
 [[noreturn]] void fail(const std::filesystem::path& path, const std::string& action) {
   const std::error_code code(errno, std::generic_category());
@@ -52,6 +56,15 @@ InputFile::InputFile(const std::filesystem::path& path, const StopFlag* stop) : 
   if (!m_stream || size < 0) throw FileError(path, "is not a regular file");
   m_size = static_cast<std::uint64_t>(size);
   m_remaining = m_size;
+  if (m_size < kMostOfPointer && m_size >= kPointer.size()) refusePointer();
+}
+
+void InputFile::refusePointer() {
+  std::string begin(kPointer.size(), '\0');
+  read(begin.data(), begin.size());
+  if (begin == kPointer)
+    throw FileError(m_path, "is what Git LFS has in place of the file: 'git lfs pull' in its folder gets the file");
+  seek(0);
 }
 
 void InputFile::seek(std::uint64_t position) {

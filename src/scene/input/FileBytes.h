@@ -32,6 +32,7 @@ class InputFile {
   void read(void* target, std::size_t count);
 
  private:
+  void refusePointer();
   void readPiece(char* target, std::size_t count);
 
   std::filesystem::path m_path;

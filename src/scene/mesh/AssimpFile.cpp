@@ -417,11 +417,9 @@ bool isAssimpFile(const Path& path) {
 }
 
 std::vector<MeshObject> readAssimpObjects(const Path& path, ReadScope& scope, MeshFrame& frame) {
-  requireFile(path);
   constexpr std::uint64_t kSeconds = 10;
-  constexpr std::uint64_t kBytesPerSecond = 1 << 20;  // the slowest of Assimp's readers on honest files
-  std::error_code ignored;
-  const std::uint64_t size = std::filesystem::file_size(path, ignored);
+  constexpr std::uint64_t kBytesPerSecond = 1 << 20;       // the slowest of Assimp's readers on honest files
+  const std::uint64_t size = InputFile(path).remaining();  // what is no file is refused here
   const std::string answer = runInChild([&] { return importInChild(path, scope); },
                                         {.memory = scope.left(), .cpuSeconds = kSeconds + size / kBytesPerSecond},
                                         [&scope](std::uint64_t bytes) { scope.take(2 * bytes); });
