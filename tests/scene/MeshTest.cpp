@@ -205,6 +205,8 @@ TEST(Mesh, FoldersWithinAFolderAndCadFilesAreNamedWhereThereIsNothingElse) {
       "is a folder without mesh files; --recursive of detect, info, view and report searches those within it, too");
   const auto cad = folder.write("gear.STEP", "ISO-10303-21;");
   expectFileError([&] { (void)scene::readInput(cad); }, "has the exact surfaces of a CAD program, which are not read");
+  for (const char* name : {"a.prt", "a.SAT", "a.jt", "a.3dm", "a.f3d", "a.FCStd"})
+    expectFileError([path = folder.write(name, "x")] { (void)scene::readInput(path); }, "has the exact surfaces of a");
 }
 
 TEST(MeshFolder, NothingStaysOfAFileThatIsLeftOutMidway) {

@@ -405,9 +405,9 @@ std::string importInChild(const Path& path, ReadScope& scope) {
 }  // namespace
 
 bool isCadFile(const Path& path) {
-  static const std::set<std::string_view> kExtensions{".step",       ".stp",    ".iges", ".igs", ".brep",
-                                                      ".sldprt",     ".sldasm", ".x_t",  ".x_b", ".catpart",
-                                                      ".catproduct", ".ipt",    ".iam"};
+  static const std::set<std::string_view> kExtensions{
+      ".step",       ".stp", ".iges", ".igs", ".brep", ".sldprt", ".sldasm", ".x_t", ".x_b", ".catpart",
+      ".catproduct", ".ipt", ".iam",  ".prt", ".sat",  ".sab",    ".jt",     ".3dm", ".f3d", ".fcstd"};
   return kExtensions.contains(lowerExtension(path));
 }
 
