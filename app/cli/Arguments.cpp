@@ -154,7 +154,11 @@ std::string placeOfBoxes(const CLI::App& command) {
 void addBoxValues(CLI::App& command, BoxSetArguments& arguments) {
   command.add_option("--box", arguments.box, "Leave out boxes outside of this region")->type_name("x0,y0,z0,x1,y1,z1");
   addValues(command, "--", arguments.values);
-  for (CLI::Option* option : addValues(command, "--with-", arguments.withValues)) option->needs("--with");
+  for (CLI::Option* option : addValues(command, "--with-", arguments.withValues)) {
+    for (CLI::Option* other : command.get_options()) {  // to ask for it by its name ends the program where memory does
+      if (other->check_lname("with")) option->needs(other);
+    }
+  }
 }
 
 std::vector<std::filesystem::path> pathsOf(const std::vector<std::string>& names) {
