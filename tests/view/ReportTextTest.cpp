@@ -5,17 +5,13 @@
 #include <array>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
-#include "Bcf.h"
 #include "Clash.h"
-#include "ClashPicture.h"
 #include "PageTemplate.h"
 #include "Report.h"
-#include "ReportFiles.h"
 #include "Since.h"
-#include "support/Numbers.h"
-#include "support/TempFolder.h"
 
 namespace allpairs::test {
 namespace {

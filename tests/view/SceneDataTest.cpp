@@ -17,6 +17,7 @@
 namespace allpairs::test {
 namespace {
 
+using collision::Vec3;
 using view::ViewScene;
 
 /// The type of an array, and its numbers.
