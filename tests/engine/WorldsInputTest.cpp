@@ -9,11 +9,13 @@
 #include <random>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "WorldsScene.h"
 #include "allpairs/Error.h"
 #include "allpairs/Worlds.h"
+#include "support/Boxes.h"
 #include "support/Numbers.h"
 #include "support/Oracle.h"
 
@@ -197,6 +199,33 @@ TEST(WorldsInput, ADistanceOrARegionThatIsNoneIsRefusedHoweverSmallTheWorlds) {
   options.distance = 0.0;
   options.region = Box{{0, 0, 0}, {1, test::kNan, 1}};
   EXPECT_THROW(static_cast<void>(overlapsInWorlds(worlds, options)), InvalidArgument);
+}
+
+TEST(MovedFrom, AWorldsSearchIsAsNew) {
+  OverlapOptions options;
+  options.distance = 100.0;
+  WorldsSearch first(options);
+  const std::vector<Box> boxes{test::cube(0, 0, 0), test::cube(0.5, 0, 0), test::cube(9, 0, 0)};
+  const Worlds worlds = Worlds::ofEqualSize(boxes, 1);
+  EXPECT_EQ(first.options().distance, 100.0);
+  EXPECT_EQ(first.find(worlds).pairs.size(), 3U);
+  EXPECT_EQ(first.statistics().pairs, 3U);
+  first.shrink();
+  EXPECT_EQ(first.statistics().pairs, 3U) << "of the last search still";
+  EXPECT_EQ(first.options().distance, 100.0);
+  WorldsSearch second(std::move(first));
+  EXPECT_EQ(second.options().distance, 100.0);
+  EXPECT_EQ(second.count(worlds).back(), 3U);
+  // NOLINTBEGIN(bugprone-use-after-move): what is tested
+  EXPECT_EQ(first.options().distance, 0.0);
+  EXPECT_EQ(first.statistics().pairs, 0U);
+  first.shrink();
+  EXPECT_EQ(first.find(worlds).pairs.size(), 1U);
+  first = std::move(second);
+  EXPECT_EQ(first.options().distance, 100.0);
+  EXPECT_EQ(second.options().distance, 0.0);
+  EXPECT_EQ(second.count(worlds).back(), 1U);
+  // NOLINTEND(bugprone-use-after-move)
 }
 
 }  // namespace
