@@ -64,11 +64,20 @@ bool isAscii(const std::string& text) {
   return std::all_of(text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x80; });
 }
 
-/// Of all that the table may say of models.
-bool areAscii(const ViewScene& scene) {
-  return std::all_of(scene.names.begin(), scene.names.end(), isAscii) &&
-         std::all_of(scene.paths.begin(), scene.paths.end(), isAscii) &&
-         std::all_of(scene.fileNames.begin(), scene.fileNames.end(), isAscii);
+bool isAscii(const EarlierClash& clash) {
+  return isAscii(clash.first) && isAscii(clash.second) &&
+         std::all_of(clash.places.begin(), clash.places.end(),
+                     [](const EarlierPlace& place) { return isAscii(place.file) && isAscii(place.path); });
+}
+
+/// Whether all that the table may say of models is, those of rows that are gone included.
+bool isAscii(const Report& report) {
+  const ViewScene& scene = report.scene;
+  const auto areAscii = [](const auto& all) {
+    return std::all_of(all.begin(), all.end(), [](const auto& one) { return isAscii(one); });
+  };
+  return areAscii(scene.names) && areAscii(scene.paths) && areAscii(scene.fileNames) && areAscii(scene.kinds) &&
+         areAscii(scene.ids) && (report.since == nullptr || areAscii(report.since->gone));
 }
 
 }  // namespace
@@ -76,7 +85,7 @@ bool areAscii(const ViewScene& scene) {
 void writeReportCsv(const Report& report, scene::ByteSink sink) {
   constexpr std::string_view kUtf8Mark = "\xEF\xBB\xBF";  // without it some spreadsheets take another character set
   const ViewScene& scene = report.scene;
-  if (!areAscii(scene)) sink(kUtf8Mark);
+  if (!isAscii(report)) sink(kUtf8Mark);
   sink(scene.isExact ? "number,first,second,state,depth,distance,x,y,z,normal_x,normal_y,normal_z,contacts"
                      : "number,first,second,overlap_x,overlap_y,overlap_z,volume");
   if (!scene.ids.empty()) sink(",first_type,first_id,second_type,second_id");

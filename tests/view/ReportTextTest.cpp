@@ -246,6 +246,27 @@ TEST(ReportText, OfShapesAndBodiesIsThisTable) {
 )");
 }
 
+TEST(ReportText, OfAnyLetterThatIsNotAsciiIsSaidToBeUtf8) {
+  const auto isMarked = [](const ViewScene& scene, const view::Since& since) {
+    return textOfReport({scene, {}, 0, &since}, view::writeReportCsv).starts_with("\xEF\xBB\xBFnumber,");
+  };
+  EXPECT_FALSE(isMarked(sceneOfBodies(), sinceMonday()));
+  for (const auto texts :
+       {&ViewScene::names, &ViewScene::paths, &ViewScene::fileNames, &ViewScene::kinds, &ViewScene::ids}) {
+    ViewScene scene = sceneOfBodies();
+    (scene.*texts)[1] = "T\u00fcr";
+    EXPECT_TRUE(isMarked(scene, sinceMonday()));
+  }
+  for (std::size_t i = 0; i < 6; ++i) {
+    view::Since since = sinceMonday();
+    view::EarlierClash& gone = since.gone.front();
+    const std::array texts{&gone.first,          &gone.second,         &gone.places[0].file,
+                           &gone.places[0].path, &gone.places[1].file, &gone.places[1].path};
+    *texts.at(i) = "T\u00fcr";
+    EXPECT_TRUE(isMarked(sceneOfBodies(), since)) << "of a row that is gone " << i;
+  }
+}
+
 /// Two boxes that overlap, one of which may touch itself.
 ViewScene sceneOfBoxes() {
   ViewScene scene;
@@ -328,6 +349,12 @@ TEST(ReportText, WithoutRowsSaysWhy) {
                          "No two models touch: there is nothing to look at."));
 }
 
+std::size_t timesIn(const std::string& text, const std::string& word) {
+  std::size_t found = 0;
+  for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) ++found;
+  return found;
+}
+
 TEST(ReportText, ListsTwentyPartsOfARowAndTenThousandRows) {
   constexpr std::size_t kRows = 10'001;
   ViewScene scene = sceneOfBoxes();
@@ -337,22 +364,20 @@ TEST(ReportText, ListsTwentyPartsOfARowAndTenThousandRows) {
   scene.bodyNames = {"A", "B"};
   clashes.front().inside.resize(20);
   scene.ignored.assign(kRows, {"a.obj", 1, "x", "y", false});
-  const auto count = [&](const std::string& word) {
-    const std::string page = contentOf({scene, clashes, 1});
-    std::size_t found = 0;
-    for (std::size_t at = page.find(word); at != std::string::npos; at = page.find(word, at + 1)) ++found;
-    return found;
-  };
-  EXPECT_EQ(count("</tr>\n"), 10'000U);
-  EXPECT_EQ(count("<li>a.obj:1: x: y</li>"), 10'000U);
-  EXPECT_EQ(count(" The table here has the first 10000, clashes.csv has all."), 1U);
-  EXPECT_EQ(count("<li>0 and itself: "), 20U);
-  EXPECT_EQ(count(", in clashes.csv</li>"), 0U);
+  std::string text = contentOf({scene, clashes, 1});
+  EXPECT_EQ(timesIn(text, "</tr>\n"), 10'000U);
+  EXPECT_EQ(timesIn(text, "<li>a.obj:1: x: y</li>"), 10'000U);
+  EXPECT_EQ(timesIn(text, " The table here has the first 10000, clashes.csv has all."), 1U);
+  EXPECT_EQ(timesIn(text, "<li>0 and itself: "), 20U);
+  EXPECT_EQ(timesIn(text, ", in clashes.csv</li>"), 0U);
   clashes.front().inside.resize(22);
-  EXPECT_EQ(count("<li>0 and itself: "), 20U);
-  EXPECT_EQ(count("<li>and 2 more, in clashes.csv</li>"), 1U);
   clashes.pop_back();
-  EXPECT_EQ(count("The table here"), 0U);
+  scene.ignored.clear();
+  text = contentOf({scene, clashes, 1});
+  EXPECT_EQ(timesIn(text, "</tr>\n"), 10'000U);
+  EXPECT_EQ(timesIn(text, "The table here"), 0U);
+  EXPECT_EQ(timesIn(text, "<li>0 and itself: "), 20U);
+  EXPECT_EQ(timesIn(text, "<li>and 2 more, in clashes.csv</li>"), 1U);
 }
 
 TEST(ReportText, KnowsTheUnits) {
