@@ -295,6 +295,7 @@ TEST(Camera, ShowsBothBoxesOrTheSmallerAndWhatIsShared) {
   expectCamera(cameraOfTwo(large, a, {}), shared, 1.15 * diagonalOf(shared));
   const Box small{{1, 1, 1}, {1.5, 1.5, 1.5}};
   expectCamera(cameraOfTwo(a, small, {}), a, 1.15 * diagonalOf(a));  // four times as large is not much larger
+  expectCamera(cameraOfTwo(small, a, {}), a, 1.15 * diagonalOf(a));
 }
 
 TEST(Camera, ShowsTheContactOfShapesWithRoomAroundIt) {
