@@ -38,7 +38,7 @@ std::string suggestionFor(std::string_view word, const std::vector<std::string>&
   for (const std::string& choice : choices) {
     const bool isCut = word.size() >= kLeastOfCut && choice.starts_with(word);
     const std::size_t changes = isCut ? 1 : changesBetween(word, choice);
-    if (changes >= least || changes >= choice.size()) continue;
+    if (changes >= least) continue;
     least = changes;
     best = choice;
   }

@@ -76,6 +76,22 @@ TEST(InfoAsJson, GoesToAFileByItsName) {
   expectFailure(runProgram({"info", boxes, "--format", "json", "-o", boxes}), 3, "is an input");
 }
 
+TEST(InfoAsATable, HasTwentyBoxesAndTheNumberOfTheOthers) {
+  const TempFolder folder;
+  std::string rows = "b0,0,0,0,1,1,0.5\nb1,0,0,0,1,1,1\n";
+  const auto infoOf = [&] { return runProgram({"info", folder.write("boxes.csv", rows)}).out; };
+  EXPECT_EQ(infoOf(),
+            "models   2 boxes, float64\nbox      [0, 0, 0] to [1, 1, 1]\n\n"
+            "#  name  type      elements  flags  groups  box\n"
+            "0  b0    BoxModel         1  -      -       [0, 0, 0] to [1, 1, 0.5]\n"
+            "1  b1    BoxModel         1  -      -       [0, 0, 0] to [1, 1, 1]\n");
+  for (int i = 2; i < 20; ++i) rows += 'b' + std::to_string(i) + ",0,0,0,1,1,1\n";
+  EXPECT_TRUE(infoOf().ends_with("\n19  b19   BoxModel         1  -      -       [0, 0, 0] to [1, 1, 1]\n"))
+      << infoOf();
+  rows += "last,0,0,0,1,1,1\n";
+  EXPECT_TRUE(infoOf().ends_with("[0, 0, 0] to [1, 1, 1]\n... and 1 more; --format json gives all\n")) << infoOf();
+}
+
 TEST(InfoOfPipelines, SaysWhatLiesOutsideOfTheRegionsOfEach) {
   const TempFolder folder;
   const std::string scene = folder.write("two.scn", sceneWith(kTwoRegions));
@@ -92,6 +108,20 @@ TEST(InfoOfPipelines, SaysWhatLiesOutsideOfTheRegionsOfEach) {
      "models": [2]}])"));
   EXPECT_FALSE(info["statistics"].contains("region")) << "each pipeline has its own";
   EXPECT_NE(runProgram({"info", scene}).out.find("1  /C/s  TSphereModel         1  outside"), std::string::npos);
+}
+
+TEST(InfoOfPipelines, WhatLiesInTheRegionOfOneIsNotOutside) {
+  std::string pipelines = kTwoRegions;  // the second takes C too, and its region has it
+  pipelines.replace(pipelines.find("'@B/s'"), 6, "'@B/s @C/s'");
+  pipelines.replace(pipelines.find("0.5 2 2"), 7, "20 2 2");
+  const TempFolder folder;
+  const std::string scene = folder.write("two.scn", sceneWith(pipelines));
+  const ProgramRun run = runProgram({"info", scene, "--format", "json"});
+  EXPECT_EQ(run.status, 0) << run.err;
+  const Json info = Json::parse(run.out);
+  EXPECT_EQ(info["pipelines"][1]["models"], Json::parse("[2, 1]"));
+  ASSERT_EQ(info["models"].size(), 3U);
+  for (const Json& model : info["models"]) EXPECT_EQ(model["outside"], false) << model;
 }
 
 }  // namespace

@@ -131,6 +131,30 @@ TEST(Why, SaysThatADistanceKeepsAModelFromItself) {
   EXPECT_NE(whyOf(scene, "/A/t", "/A/t", {"--distance", "-5"}).find("at a distance below 0"), std::string::npos);
 }
 
+TEST(Why, SaysWhichDistanceOrFlatnessItIs) {
+  const TempFolder folder;
+  const std::string boxes = folder.write("boxes.csv", "a,0,0,0,1,1,1\nb,0.75,0,0,2,1,1\n");
+  EXPECT_EQ(whyOf(boxes, "a", "b", {"--distance", "-0.5"}),
+            "'b' (1) and 'a' (0) are no pair: their boxes are too far apart\n"
+            "  gaps of the boxes: -0.25 on x, -1 on y, -1 on z, below 0 where they overlap; a pair has at most -0.5\n");
+  EXPECT_EQ(whyOf(ALLPAIRS_SOURCE_DIR "/tests/view/flat.scn", "/Flat/t", "/Flat/t"),
+            "'/Flat/t' (0) is no pair with itself: it is too flat to touch itself\n");
+}
+
+TEST(Why, ListsUpToFiveModelsOfAName) {
+  const TempFolder folder;
+  std::string rows = "a,0,0,0,1,1,1\n";
+  const auto complaint = [&] { return runProgram({"detect", folder.write("boxes.csv", rows), "--why", "a", "b"}).err; };
+  for (int i = 0; i < 5; ++i) rows += "b,0,0,0,1,1,1\n";
+  EXPECT_EQ(complaint(),
+            "allpairs: --why: 5 models are called 'b': number 1, 2, 3, 4, 5; say which by its number, as in #1 "
+            "(see 'allpairs detect --help')\n");
+  rows += "b,0,0,0,1,1,1\n";
+  EXPECT_EQ(complaint(),
+            "allpairs: --why: 6 models are called 'b': number 1, 2, 3, 4, 5, ...; say which by its number, as in #1 "
+            "(see 'allpairs detect --help')\n");
+}
+
 TEST(Why, WantsNamesThatSayWhichModel) {
   const TempFolder folder;
   const std::string boxes = folder.write("boxes.csv", "a,0,0,0,1,1,1\nb,0,0,0,1,1,1\nb,0,0,0,1,1,1\n");
