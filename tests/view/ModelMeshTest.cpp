@@ -62,7 +62,7 @@ double distanceToSegment(const Vec3& p, const Vec3& begin, const Vec3& end) {
   return std::hypot(p[0] - begin[0] - t * along[0], p[1] - begin[1] - t * along[1], p[2] - begin[2] - t * along[2]);
 }
 
-/// Whether it is a closed surface around a segment: all vertices as far as the radius, and little of the volume missing.
+/// Whether it is closed around a segment: all vertices as far as the radius, and little of the volume missing.
 void expectRound(const ViewMesh& mesh, const Capsule& capsule) {
   constexpr double kMost = 1e-12;
   EXPECT_TRUE(isClosed(mesh));
