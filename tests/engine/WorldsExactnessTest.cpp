@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cfenv>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -132,6 +133,21 @@ TEST_P(WorldsApart, ByLessThanFloat32TellsGiveTheOraclesPairs) {
       }
       EXPECT_THAT(search.count(worlds), ElementsAreArray(ends));
     }
+  }
+}
+
+/// In whatever direction the processor rounds.
+TEST_P(WorldsApart, ByLessThanFloat32TellsGiveTheSameWhateverTheRounding) {
+  const HairsApart scene(static_cast<unsigned>(GetParam().back()) + 1);
+  WorldsSearch search({.instructionSet = GetParam()});
+  const Worlds worlds(BoxView(scene.boxes), scene.begin);
+  const WorldPairsView found = search.find(worlds);
+  const std::vector<Pair> expected(found.pairs.begin(), found.pairs.end());
+  for (const int direction : {FE_DOWNWARD, FE_UPWARD, FE_TOWARDZERO}) {
+    ASSERT_EQ(std::fesetround(direction), 0);
+    const Span<const Pair> pairs = search.find(worlds).pairs;
+    ASSERT_EQ(std::fesetround(FE_TONEAREST), 0);
+    EXPECT_THAT(pairs, ElementsAreArray(expected)) << direction;
   }
 }
 

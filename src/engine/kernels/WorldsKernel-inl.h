@@ -27,11 +27,10 @@ HWY_BEFORE_NAMESPACE();
 namespace allpairs::engine::HWY_NAMESPACE {
 namespace {  // Each file that compiles the kernels has its own.
 
-/// The hits of up to a word of rows, in words by row, and then those of them that are certain. Masks may be stored as
-/// whole words.
+/// The hits of up to a word of rows, in words by row, and then those of them that are certain.
 struct WorldHits {
   std::array<std::uint64_t, kMostInWorld> all;
-  std::array<std::uint64_t, kMostInWorld + 1> certain;
+  std::array<std::uint64_t, kMostInWorld> certain;
 };
 
 /// The lanes of a mask in which one value is not above another.
@@ -78,8 +77,9 @@ class BoundsTest {
       std::uint32_t all = 0;
       std::uint32_t certain = 0;
       for (std::size_t vector = 0; vector < kVectors; ++vector) {
-        all |= bitsOf(hits(box, m_columns[vector])) << (vector * hn::Lanes(D()));
-        if constexpr (kHasDoubts) certain |= bitsOf(certainHits(box, m_columns[vector])) << (vector * hn::Lanes(D()));
+        all |= allBitsOf(D(), hits(box, m_columns[vector])) << (vector * hn::Lanes(D()));
+        if constexpr (kHasDoubts)
+          certain |= allBitsOf(D(), certainHits(box, m_columns[vector])) << (vector * hn::Lanes(D()));
       }
       byte[0] = static_cast<std::uint8_t>(all);
       if constexpr (kHasDoubts) byte[kToCertain] = static_cast<std::uint8_t>(certain);
@@ -105,12 +105,6 @@ class BoundsTest {
     return hn::And(hn::And(isBelow(0), isBelow(1)), isBelow(2));
   }
 
-  [[nodiscard]] static HWY_INLINE std::uint32_t bitsOf(hn::Mask<D> mask) {
-    std::uint8_t bits = 0;
-    hn::StoreMaskBits(D(), mask, &bits);
-    return bits;
-  }
-
   const WorldTile<T>& m_tile;
   hn::Vec<D> m_columns[kVectors][6];
 };
@@ -130,9 +124,7 @@ class WideTest {
   HWY_INLINE void storeHits(std::size_t row, std::uint8_t* byte) const {
     std::uint32_t bits = 0;
     for (std::size_t i = 0; i < kColumnsAtOnce; i += hn::MaxLanes(D())) {
-      std::uint8_t part = 0;
-      hn::StoreMaskBits(D(), hits(row, m_place + i), &part);
-      bits |= std::uint32_t{part} << i;
+      bits |= allBitsOf(D(), hits(row, m_place + i)) << i;
     }
     *byte = static_cast<std::uint8_t>(bits);
   }
@@ -286,21 +278,24 @@ HWY_INLINE bool takeRows(const WorldHits& hits, const WorldPlaces places, std::s
   return doubts == 0;
 }
 
-/// All pairs of one world; returns whether they are certain. Of worlds of one word most rows have hits in it; of larger ones few words have more than
-/// two.
+/// All pairs of one world; returns whether they are certain. Of worlds of one word most rows have hits in it; of larger
+/// ones few words have more than two.
 template <bool kPreceding, bool kCount, class Test>
 HWY_INLINE bool searchWorld(const Test& test, const WorldPlaces& places, const Partners& partners, WorldSink& sink) {
+  constexpr std::size_t kOfOneWord = kCount ? 0 : 4;
+  constexpr std::size_t kOfSeveral = kCount ? 0 : 2;
+  constexpr bool kHasDoubts = Test::kHasDoubts;
   WorldHits hits;
   if (places.words == 1) {
-    testRows<kPreceding>(test, {places.first, kWordBoxes, 1}, places.first, hits);
-    return takeRows < kPreceding, kCount ? 0 : 4,
-           Test::kHasDoubts > (hits, {places.first, kWordBoxes, 1}, places.first, kWordBoxes, partners, sink);
+    const WorldPlaces one{places.first, kWordBoxes, 1};
+    testRows<kPreceding>(test, one, one.first, hits);
+    return takeRows<kPreceding, kOfOneWord, kHasDoubts>(hits, one, one.first, kWordBoxes, partners, sink);
   }
   bool areCertain = true;
   for (std::size_t begin = places.first; begin < places.end;) {
     const std::size_t end = begin / kWordBoxes * kWordBoxes + kWordBoxes;
     testRows<kPreceding>(test, places, begin, hits);
-    areCertain &= takeRows < kPreceding, kCount ? 0 : 2, Test::kHasDoubts > (hits, places, begin, end, partners, sink);
+    areCertain &= takeRows<kPreceding, kOfSeveral, kHasDoubts>(hits, places, begin, end, partners, sink);
     begin = end;
   }
   return areCertain;
@@ -313,8 +308,8 @@ HWY_INLINE bool searchSome(const Test& test, const WorldPlaces& places, const Pa
                         : searchWorld<kPreceding, false>(test, places, partners, sink);
 }
 
-/// Searches the boxes of a world as a test has them. Worlds without a filter whose pairs are wanted by their first boxes
-/// have a loop of their own.
+/// Searches the boxes of a world as a test has them. Worlds without a filter whose pairs are wanted by their first
+/// boxes have a loop of their own.
 template <bool kPreceding, bool kPlain, class Test>
 HWY_INLINE bool searchRead(const Test& test, const WorldPlaces& places, WorldSink& sink) {
   if constexpr (kPlain) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The boxes of a small world from the caller's memory to a row for each bound, as they are or, of float64, as the nearest
-// float32.
+// The boxes of a small world from the caller's memory to a row for each bound, as they are or, of float64, as the
+// nearest float32.
 
 #if defined(ALLPAIRS_WORLDS_READ_KERNEL_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef ALLPAIRS_WORLDS_READ_KERNEL_INL_H
@@ -37,8 +37,8 @@ using DoublesRead = ReadTag<double>;
 
 #if HWY_TARGET != HWY_SCALAR
 
-/// The 16 bytes of a box of a row of six, and if there are lanes for them those of a later box, as many boxes after it as
-/// 16 bytes have values.
+/// The 16 bytes of a box of a row of six, and if there are lanes for them those of a later box, as many boxes after it
+/// as 16 bytes have values.
 template <class D>
 HWY_INLINE hn::Vec<D> blockOfBoxes(D d, const hn::TFromD<D>* values) {
   constexpr std::size_t kBlock = 16 / sizeof(hn::TFromD<D>);

@@ -79,8 +79,8 @@ struct WorldSink {
   }
 };
 
-/// Worlds of boxes as they are, one after the other, all pairs of each tested, up to a world that is too large or that
-/// there may be no room for.
+/// Worlds of boxes in rows of six or three, one after the other, all pairs of each tested, up to a world that is too
+/// large or that there may be no room for.
 template <class T>
 struct WorldsRun {
   BoxRun<T> boxes;

@@ -23,8 +23,8 @@ namespace {
 /// (docs/decisions/0009, few_benchmark).
 constexpr std::size_t kTestedPairs = 24;
 
-/// Room for the hits that are buffered, more than those of one box and so few that they fit on the stack, and for what a
-/// vector writes behind them.
+/// Room for the hits that are buffered, more than those of one box and so few that they fit on the stack, and for what
+/// a vector writes behind them.
 constexpr std::size_t kHitStride = 2 * LaneTile::kCapacity + kVectorSlack;
 
 /// What a sink of them allocates: three arrays of hits, and the pairs.

@@ -23,9 +23,9 @@ std::uint64_t workOf(std::uint64_t boxes, std::uint64_t mostBoxes) {
   return 16 + boxes * (boxes <= mostBoxes ? 4 + boxes / kFanOut : 64);
 }
 
-/// How many times more boxes the kernel for worlds takes than a search of one set tests exhaustively, and of float64 than
-/// are tested in double, until a hierarchy is faster: it does not put pairs in order, and rounds to the nearest only
-/// (worlds_benchmark).
+/// How many times more boxes the kernel for worlds takes than a search of one set tests exhaustively, and of float64
+/// than are tested in double, until a hierarchy is faster: it does not put pairs in order, and rounds to the nearest
+/// only (worlds_benchmark).
 constexpr std::size_t kTimesFlat = 2;
 
 /// The number of boxes up to which the exhaustive kernel finds the pairs that a search would, in the same order.
@@ -33,8 +33,9 @@ std::size_t mostBoxesOf(const Kernels& kernels, const OverlapOptions& options, b
   if (options.strategy == Strategy::Bvh) return 0;
   if (options.strategy == Strategy::Exhaustive) return kMostInWorld;
   const std::size_t flat = kernels.flatBoxes;
-  if (areFloat64) return std::min(flat, kTimesFlat * kernels.wideBoxes);
-  return std::min(kMostInWorld, options.order == Order::Unordered ? flat : kTimesFlat * flat);
+  const std::size_t wide = kernels.wideBoxes;
+  const std::size_t most = areFloat64 ? std::clamp(flat, wide, kTimesFlat * wide) : kTimesFlat * flat;
+  return std::min({kMostInWorld, most, options.order == Order::Unordered ? flat : most});
 }
 
 /// Whether the pairs of a world can be written to the sink at once.
