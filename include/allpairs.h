@@ -18,7 +18,7 @@
 //
 // Structures may grow at their end: struct_size tells the library which fields the caller has. All other fields of
 // options may be 0. A category or mask of 0 is none: begin properties and filters of queries with their defaults.
-// A struct_size of 0, or beyond this library's, is an ALLPAIRS_INVALID_ARGUMENT.
+// A struct_size that is 0, beyond this library's, or ends within a field is an ALLPAIRS_INVALID_ARGUMENT.
 #pragma once
 
 #include <stdbool.h>
@@ -216,8 +216,8 @@ typedef struct allpairs_overlap_statistics {
   uint64_t exact_tests;  ///< Candidates that float could not decide, and that were tested in double.
 } allpairs_overlap_statistics;
 
-/// Writes the statistics of the last search: all 0 if it failed, or there was none. All but `pairs` depend on the
-/// instruction set.
+/// Writes the statistics of the last search: all 0 if it failed, or there was none; a search that was an
+/// ALLPAIRS_INVALID_ARGUMENT may count as none at all. All but `pairs` depend on the instruction set.
 ALLPAIRS_C_API allpairs_status allpairs_search_statistics(const allpairs_search* search,
                                                           allpairs_overlap_statistics* statistics);
 
@@ -414,7 +414,7 @@ typedef struct allpairs_ids {
 ALLPAIRS_C_API allpairs_status allpairs_world_add(allpairs_world* world, const allpairs_set* boxes,
                                                   const allpairs_properties* properties, uint32_t* ids);
 
-/// The same with properties of its own for each box of the set.
+/// The same, with properties[k] for box k of the set.
 ///
 /// Bad input: a margin that is NaN or -infinity is an ALLPAIRS_INVALID_BOX; no box is added then.
 ALLPAIRS_C_API allpairs_status allpairs_world_add_each(allpairs_world* world, const allpairs_set* boxes,

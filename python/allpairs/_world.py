@@ -266,7 +266,7 @@ class World(WorldQueries):
         return self._core.size()
 
     def __contains__(self, id: object) -> bool:
-        single = id.item() if isinstance(id, np.ndarray) and id.ndim == 0 else id
+        single = id.item() if type(id) is np.ndarray and id.ndim == 0 else id  # no masked one, whose number is hidden
         number = int(single) if isinstance(single, (int, np.integer)) else -1
         return 0 <= number < NO_BOX and self._core.contains(number)
 
@@ -312,9 +312,9 @@ class World(WorldQueries):
 
     @property
     def statistics(self) -> WorldStatistics:
-        """What the last step tested, all 0 before the first one; it depends on the processor.
+        """What the last step tested, all 0 in a new world; it depends on the processor.
 
-        A step that was interrupted or failed leaves numbers that mean nothing, and so does making a copy.
+        Those of a step that was interrupted or failed mean nothing, nor do those of a copy before its first step.
         """
         last = self._core.statistics()
         return WorldStatistics(*(getattr(last, name) for name in WorldStatistics._fields))

@@ -142,7 +142,7 @@ def _merge(found: list[Array]) -> Array:
 
 
 def _write(pairs: Array, path: str, call: str) -> int:
-    """The file appears when it is complete, whoever else writes it too; until then its name has that of the call."""
+    """The file appears when it is complete, whoever else writes it too; until then it has another name, with the call's id in it."""
     beside = f"{path}.{call}-{uuid4().hex}.part"
     try:
         with open(beside, "xb") as file:
@@ -178,9 +178,10 @@ def _written(merged: list[Any], output: PathLike) -> int:
     try:
         counts: Iterable[int] = compute(*[delayed(_write)(pairs, name, call) for pairs, name in zip(merged, names)])
     finally:
-        for left in folder.glob(f"part-*.npy.{call}-*.part"):  # by workers that were killed
-            with suppress(OSError):
-                left.unlink()
+        with suppress(OSError):
+            for left in list(folder.glob(f"part-*.npy.{call}-*.part")):  # by workers that were killed
+                with suppress(OSError):
+                    left.unlink()
     return sum(counts)
 
 

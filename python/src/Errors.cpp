@@ -44,7 +44,7 @@ py::object numberOf(const std::error_code& code) {
   return py::int_(code.default_error_condition().value());
 }
 
-void translate(std::exception_ptr pointer) {
+void translateErrors(const std::exception_ptr& pointer) {
   try {
     if (pointer) std::rethrow_exception(pointer);
   } catch (const InvalidBox& error) {
@@ -58,7 +58,13 @@ void translate(std::exception_ptr pointer) {
     raise("InvalidArgument", textOf(error.what()));
   } catch (const Error& error) {
     raise("Error", textOf(error.what()));
-  } catch (const std::bad_alloc&) {
+  }
+}
+
+void translate(std::exception_ptr pointer) {
+  try {
+    translateErrors(pointer);
+  } catch (const std::bad_alloc&) {  // of what was called, or of telling its error
     PyErr_SetString(PyExc_MemoryError, "out of memory");
   } catch (const std::length_error&) {  // more than a container can hold
     PyErr_SetString(PyExc_MemoryError, "out of memory");

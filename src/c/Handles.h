@@ -132,7 +132,7 @@ struct allpairs_world {
 namespace allpairs::c {
 
 /// A visitor that wants no more: ends the search, is no failure.
-struct Stopped {};
+struct VisitorStopped {};
 
 /// Notes the exception that is being handled for allpairs_error_message(), and says which status it is.
 [[nodiscard]] allpairs_status noteFailure() noexcept;
@@ -187,7 +187,7 @@ class SearchCall {
  public:
   explicit SearchCall(allpairs_search* search) : m_search(required(search, "search")) {
     if (m_search.isCalled.exchange(true, std::memory_order_acquire)) {
-      throw InvalidArgument("the search is called by its own filter or visitor");
+      throw InvalidArgument("the search is called by its own filter, visitor or stop");
     }
   }
   ~SearchCall() { m_search.isCalled.store(false, std::memory_order_release); }
@@ -280,7 +280,7 @@ class Visitor {
   }
 
   void operator()(std::span<const Pair> batch) {
-    if (!m_visitor.visit(m_visitor.context, toC(batch))) throw Stopped();
+    if (!m_visitor.visit(m_visitor.context, toC(batch))) throw VisitorStopped();
   }
 
  private:

@@ -87,7 +87,7 @@ allpairs_status noteFailure() noexcept {
     return note(ALLPAIRS_STOPPED, error.what());
   } catch (const Error& error) {
     return note(ALLPAIRS_INVALID_ARGUMENT, error.what());
-  } catch (const Stopped&) {
+  } catch (const VisitorStopped&) {
     return note(ALLPAIRS_STOPPED, "the visitor asked for no more");
   } catch (const std::bad_alloc&) {
     return note(ALLPAIRS_OUT_OF_MEMORY, "out of memory");
@@ -139,12 +139,12 @@ template void write(allpairs_step_statistics result, allpairs_step_statistics* t
 
 std::string_view instructionSetOf(const char* name) {
   if (name == nullptr) return {};
-  std::string known;
+  std::string names;
   for (const std::string_view each : instructionSets()) {
     if (each == name) return each;
-    known += (known.empty() ? "" : ", ") + std::string(each);
+    names += (names.empty() ? "" : ", ") + std::string(each);
   }
-  throw InvalidArgument("no instruction set '" + std::string(name) + "' here; there are: " + known);
+  throw InvalidArgument("no instruction set '" + std::string(name) + "' here; there are: " + names);
 }
 
 Order orderOf(int order) {

@@ -234,7 +234,7 @@ allpairs_status allpairs_world_statistics(const allpairs_world* world, allpairs_
 allpairs_status allpairs_world_result_of(allpairs_world* world, uint32_t number, allpairs_step* step) {
   return guarded([&] {
     allpairs_step& result = required(step, "step");
-    result = stepOf(CallingBack(world).world().result(number));
+    result = stepOf(worldOf(world).result(number));
   });
 }
 

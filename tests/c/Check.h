@@ -3,6 +3,7 @@
 
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "allpairs.h"
 
@@ -14,6 +15,9 @@
       exit(EXIT_FAILURE);                                                                            \
     }                                                                                                \
   } while (0)
+
+/// Whether the message of the last failure has the text.
+static inline bool checkSays(const char* text) { return strstr(allpairs_error_message(), text) != NULL; }
 
 /// The next of a fixed sequence of numbers from 0 to limit - 1 (constants of Numerical Recipes, section 7.1).
 static inline uint32_t checkRandom(uint32_t* state, uint32_t limit) {

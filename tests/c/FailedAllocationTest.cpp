@@ -283,6 +283,11 @@ TEST(FailedAllocationInC, OfHandles) {
   checkCreation<allpairs_world>([&](auto** h) { return allpairs_world_create(&ofWorld, h); }, allpairs_world_destroy);
   checkCreation<allpairs_elements>([&](auto** h) { return allpairs_elements_create(&mesh, 1, nullptr, h); },
                                    allpairs_elements_destroy);
+  allpairs_elements_options ofElements{};
+  ofElements.struct_size = sizeof ofElements;
+  ofElements.stop = options.stop;
+  checkCreation<allpairs_elements>([&](auto** h) { return allpairs_elements_create(&mesh, 1, &ofElements, h); },
+                                   allpairs_elements_destroy);
 }
 
 /// A callback of C can say no, or end a stream; in all else it can't end a call. Of its own handle it gets a status.

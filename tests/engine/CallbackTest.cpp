@@ -152,7 +152,7 @@ bool isRefused(const std::function<void()>& call) {
   try {
     call();
   } catch (const InvalidArgument& error) {
-    return std::string(error.what()).find("is called by its own filter, visitor or task") != std::string::npos;
+    return std::string(error.what()).find("is called by its own filter, visitor, stop or task") != std::string::npos;
   }
   return false;
 }

@@ -105,6 +105,12 @@ def nested(depth):
     return rows
 
 
+def holds_itself():
+    rows = []
+    rows.append(rows)
+    return rows
+
+
 WORLD = allpairs.World()
 MESH = {"triangles": [[0, 1, 2]], "vertex_count": 3}
 
@@ -147,6 +153,7 @@ MESH = {"triangles": [[0, 1, 2]], "vertex_count": 3}
         (lambda: WORLD.overlapping(BOXES, world=allpairs.EVERY_WORLD), "world is 4294967295; it is at most 4294967294"),
         (lambda: allpairs.overlaps([[1, 2], [3]]), "lower cannot be read as an array"),
         (lambda: allpairs.overlaps(nested(5000)), "lower cannot be read as an array: it is nested too deeply"),
+        (lambda: allpairs.overlaps(holds_itself()), "lower cannot be read as an array"),
         (lambda: WORLD.boxes(nested(5000)), "ids cannot be read as an array: it is nested too deeply"),
         (lambda: allpairs.overlaps_in_worlds([[np.ma.masked_less(BOXES, 2)] * 2]), ".* has masked entries"),
         (lambda: allpairs.Partition(BOXES, cells=2, distance=np.nan), "the distance is NaN"),
