@@ -128,7 +128,8 @@ void Output::requireRoom(std::uint64_t bytes) const {
   struct stat status {};
   struct statvfs disk {};
   if (::fstat(m_descriptor, &status) != 0 || !S_ISREG(status.st_mode)) return;  // a pipe or a device takes any
-  if (::fstatvfs(m_descriptor, &disk) != 0 || disk.f_frsize == 0 || disk.f_bavail > kMost / disk.f_frsize) return;
+  if (::fstatvfs(m_descriptor, &disk) != 0 || disk.f_blocks == 0) return;       // some do not say how large they are
+  if (disk.f_frsize == 0 || disk.f_bavail > kMost / disk.f_frsize) return;
   const std::uint64_t room = std::uint64_t{disk.f_bavail} * disk.f_frsize;
   if (bytes > room)
     throw FileError(name(), "its disk has " + mebibytes(room) + " left, and the result needs " + mebibytes(bytes));

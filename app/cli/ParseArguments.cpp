@@ -79,14 +79,15 @@ std::string conversionProblem(const CLI::ConversionError& problem, const CLI::Ap
   return name + ": '" + text.substr(value + 3) + "' is not a number";
 }
 
-[[noreturn]] void failForCommand(const CLI::App& program, const std::string& word) {
+[[noreturn]] void failForCommand(const CLI::App& program, const std::string& argument) {
+  const std::string word = asGiven(argument);
   const std::string what = word.starts_with('-') ? "a command comes first, not" : "unknown command";
   const std::string suggestion = suggestionFor(word, commandNames(program));
   throw UsageError(what + " '" + word + "'" + suggestion);
 }
 
-/// A value as it was given. None may be "", as where a variable of a script has no value: an option would be as if it was
-/// not given. Nor is an option the file of the one before it, for which CLI11 takes it.
+/// A value as it was given. None may be "", as where a variable of a script has no value: an option would be as if it
+/// was not given. Nor is an option the file of the one before it, for which CLI11 takes it.
 std::string valueOf(const CLI::Option& option, const std::string& text) {
   if (text.empty()) throw UsageError(namesOf(option) + ": the value is empty");
   if (isOfFiles(option) && option.get_type_name() == "FILE" && text.size() > 1 && text.starts_with('-'))
@@ -107,7 +108,7 @@ void checkValues(CLI::App& program) {
 std::vector<std::string> withoutHelpWord(const CLI::App& program, std::vector<std::string> arguments) {
   if (arguments.empty() || arguments.front() != "help") return arguments;
   arguments.erase(arguments.begin());
-  if (arguments.size() > 1) throw UsageError("one argument too many: '" + arguments[1] + "'");
+  if (arguments.size() > 1) throw UsageError("one argument too many: '" + asGiven(arguments[1]) + "'");
   if (!arguments.empty()) {
     const std::vector<std::string> names = commandNames(program);
     const bool isKnown = std::find(names.begin(), names.end(), arguments.front()) != names.end();

@@ -30,8 +30,8 @@ namespace allpairs::app {
 /// The text as it has to stand between single quotes in a shell of Bourne's kind.
 [[nodiscard]] std::string betweenQuotes(std::string_view text);
 
-/// The text as one word of a shell's command line: quoted where it contains spaces or other special characters; a file such as -x as ./-x,
-/// which is no option.
+/// The text as one word of a shell's command line: quoted where it contains spaces or other special characters; a file
+/// such as -x as ./-x, which is no option.
 [[nodiscard]] std::string shellWord(const std::string& text);
 
 /// A coordinate with six digits, or with as many as it takes to tell hundredths apart.

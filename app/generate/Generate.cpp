@@ -81,7 +81,7 @@ void writeFrames(const GenerateSettings& settings, Output& output) {
   }
 }
 
-/// Of all numbers; as many as can be told where that is more.
+/// The bytes of the boxes of all frames; the largest number where there are more.
 std::uint64_t bytesOf(const GenerateSettings& settings) {
   const std::uint64_t frame = settings.scene.count * 6 * sizeof(float);
   const std::uint64_t frames = isMotion(settings.scene.scene) ? settings.frames : 1;

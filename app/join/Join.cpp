@@ -98,10 +98,10 @@ std::string summaryText(const join::JoinSummary& summary, const std::string& out
   return text + '\n';
 }
 
-/// Whether a folder that the user has not named cannot be worked in, where another may do: inputs may lie where nobody may
-/// write.
+/// Whether a folder that the user has not named cannot be worked in, where another may do: inputs may lie where nobody
+/// may write.
 bool isForAnotherFolder(const FileError& problem, const std::filesystem::path& work) {
-  return problem.path() == work && (problem.code() || problem.problem().starts_with("its disk has"));
+  return problem.path() == work && problem.code();
 }
 
 void runJoin(const JoinSettings& settings) {

@@ -66,8 +66,9 @@ bool isOnDiskOf(const fs::path& a, const fs::path& b) {
 void requireRoomIn(const fs::path& folder, std::uint64_t bytes, const std::string& problem) {
   std::error_code unknown;
   const fs::space_info space = fs::space(folder, unknown);
-  if (unknown || bytes <= space.available) return;
-  throw FileError(folder, "its disk has " + megabytes(space.available) + problem);
+  if (unknown || space.capacity == 0 || bytes <= space.available) return;  // some do not say how large they are
+  throw FileError(folder, "its disk has " + megabytes(space.available) + problem,
+                  std::make_error_code(std::errc::no_space_on_device));
 }
 
 }  // namespace

@@ -81,6 +81,8 @@ TEST(BadInput, WhatStandsBehindTwoDashesIsAFile) {
   expectFailure(runProgram({"join", "--count", path, "--with", "--", "--x.npy"}), kBadInput,
                 "allpairs: --x.npy: no such file");
   expectFailure(runProgram({"generate", "uniform", "--", "--x"}), kWrongUsage, "one argument too many: '--x'");
+  expectFailure(runProgram({"help", "detect", "--", "-x"}), kWrongUsage, "one argument too many: '-x'");
+  expectFailure(runProgram({"--", "--x"}), kWrongUsage, "'--x'");
   expectSuccess(runProgram({"detect", "--", path}));
 }
 

@@ -85,6 +85,10 @@ TEST(Csv, WhatSeparatesNumbersInPlaceOfCommasIsNamed) {
   EXPECT_EQ(problemOf("1;2;3;4;5;6\n"), column + "; commas separate them, not semicolons");
   EXPECT_EQ(problemOf("a\t1\t2\t3\t4\t5\t6\n"), column + "; commas separate them, not tabs");
   EXPECT_EQ(problemOf("1.0e+00 2 3  4 5 6\n"), column + "; commas separate them, not spaces");
+  EXPECT_EQ(problemOf("north wall of the old building,0,0,0,1,1,1,7\n"),
+            "has 8 columns where a box has 6, or 7 with a name");
+  EXPECT_EQ(problemOf("Wall;1;2,0,0,0,1,1,1,1\n"), "has 8 columns where a box has 6, or 7 with a name");
+  EXPECT_EQ(problemOf("a b c d e f,0,0,0,1,1\n"), "'a b c d e f' is not a number");
   EXPECT_EQ(problemOf("minx\tminy\tminz\tmaxx\tmaxy\tmaxz\n"), column + "; commas separate them, not tabs");
   EXPECT_EQ(problemOf("0;0;0;1,5;1,5;1\n"),
             "has 3 columns where a box has 6, or 7 with a name; commas separate them, not semicolons");

@@ -345,7 +345,7 @@ TEST(Mesh, WhatGitLfsHasInPlaceOfAFileIsCalledThat) {
   const std::string pointer = "version https://git-lfs.github.com/spec/v1\noid sha256:4d7a2146\nsize 12345\n";
   for (const std::string name : {"a.obj", "a.ply", "a.stl", "a.glb", "a.dae", "a.npy", "a.csv", "a.scn"})
     expectFileError([path = folder.write(name, pointer)] { (void)scene::readInput(path); },
-                    name + ": is what Git LFS has in place of the file: 'git lfs pull' in its folder gets the file");
+                    name + ": is a Git LFS pointer, not the file: 'git lfs pull' in its folder gets it");
 }
 
 TEST(Mesh, AFileWithoutAByteIsSaidToBeEmpty) {

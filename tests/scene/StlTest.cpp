@@ -83,6 +83,12 @@ TEST(StlMesh, BinaryFilesWithMoreFacetsThanTheirHeaderSaysAreRefused) {
   expectStlProblem(bytes, "mesh.stl: has 2 facets where its header says 0");
 }
 
+TEST(StlMesh, BinaryFilesMayEndInZeros) {
+  for (const std::size_t zeros : {49U, 50U, 100U}) {
+    EXPECT_EQ(namesOf(readStl(binaryStl("", kTwoFacets) + std::string(zeros, '\0'))), "mesh.stl TTriangleModel 2\n");
+  }
+}
+
 TEST(StlMesh, FilesCutAnywhereAreRefused) {
   const TempFolder folder;
   const std::string text = solid("a", facetText("0 1 0") + facetText("0 0 1"));

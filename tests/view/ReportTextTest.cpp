@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What reports say, whole: sentences, pages, tables and BCF files of scenes made by hand.
+// What reports say, whole: sentences, pages and tables of scenes made by hand.
 #include <gtest/gtest.h>
 
 #include <array>

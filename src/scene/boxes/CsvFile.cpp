@@ -18,7 +18,6 @@ namespace {
 
 using Path = std::filesystem::path;
 
-constexpr std::size_t kCoordinates = 6;
 constexpr std::size_t kNoColumn = static_cast<std::size_t>(-1);
 
 /// In which column each of minx miny minz maxx maxy maxz stands, and the name.
@@ -46,8 +45,9 @@ std::string columnsText(const std::vector<CsvField>& fields) {
   return "has " + std::to_string(fields.size()) + (fields.size() == 1 ? " column" : " columns");
 }
 
-/// Of a line with too few or too many columns: what stands where commas should.
-std::string separatorHint(const std::vector<CsvField>& fields) {
+/// Of a line that should have so many columns: what stands where commas should, if they are missing.
+std::string separatorHint(const std::vector<CsvField>& fields, std::size_t columns) {
+  if (fields.size() >= columns) return {};
   for (const CsvField& field : fields) {
     const std::string separator = otherSeparator(field.text);
     if (!separator.empty()) return "; commas separate them, not " + separator;
@@ -58,7 +58,8 @@ std::string separatorHint(const std::vector<CsvField>& fields) {
 /// The layout of a file without a header: six numbers, or seven columns of which the first or the last is a name.
 CsvLayout layoutOfData(const std::vector<CsvField>& fields, const TextPlace& place) {
   if (fields.size() != kCoordinates && fields.size() != kCoordinates + 1) {
-    throw FileError(place.file, columnsText(fields) + " where a box has 6, or 7 with a name" + separatorHint(fields),
+    throw FileError(place.file,
+                    columnsText(fields) + " where a box has 6, or 7 with a name" + separatorHint(fields, kCoordinates),
                     place.line);
   }
   CsvLayout layout{.columns = fields.size()};
@@ -66,7 +67,7 @@ CsvLayout layoutOfData(const std::vector<CsvField>& fields, const TextPlace& pla
   if (fields.size() == kCoordinates + 1) {
     const bool nameIsLast = !isCsvNumber(fields.back()) && isCsvNumber(fields.front());
     if (isCsvNumber(fields.back()) && isCsvNumber(fields.front())) {
-      for (const CsvField& field : fields) static_cast<void>(csvNumber(field, place));  // 0,5;1,5;2,5;3,5;4,5;5,5
+      for (std::size_t i = 1; i < kCoordinates; ++i) static_cast<void>(csvNumber(fields[i], place));  // 0,5;1,5;2,5;...
       throw FileError(place.file,
                       "has seven numbers, of which the first or the last is a name: begin the file with the line "
                       "name,minx,miny,minz,maxx,maxy,maxz, or with the name last",
@@ -140,7 +141,7 @@ class CsvReader {
     if (m_fields.size() != m_layout.columns) {
       throw FileError(m_place.file,
                       columnsText(m_fields) + " where the lines before have " + std::to_string(m_layout.columns) +
-                          separatorHint(m_fields),
+                          separatorHint(m_fields, m_layout.columns),
                       m_place.line);
     }
     m_scope.takeElements(2, kCoordinates * sizeof(double));  // once more when it is finished

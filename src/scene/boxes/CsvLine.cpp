@@ -76,7 +76,6 @@ void splitCsvLine(std::string_view line, const TextPlace& place, std::vector<Csv
 }
 
 std::string otherSeparator(std::string_view text) {
-  constexpr std::size_t kCoordinates = 6;
   constexpr std::array<std::pair<char, const char*>, 3> kSeparators{
       {{';', "semicolons"}, {'\t', "tabs"}, {' ', "spaces"}}};
   for (const auto& [sign, name] : kSeparators) {
@@ -89,7 +88,7 @@ std::string otherSeparator(std::string_view text) {
       if (parseNumber(trimmed(word))) ++numbers;
     }
     const bool isInNames = sign == ' ';  // part 1 2
-    if (words >= kCoordinates || (numbers > 1 && !isInNames)) return name;
+    if (isInNames ? numbers >= kCoordinates : words >= kCoordinates || numbers > 1) return name;
   }
   return {};
 }

@@ -12,6 +12,9 @@
 
 namespace allpairs::scene {
 
+/// Numbers of a box.
+inline constexpr std::size_t kCoordinates = 6;
+
 /// Boxes of a text file, within what may be taken.
 [[nodiscard]] BoxArray readCsv(const std::filesystem::path& path, ReadScope& scope);
 

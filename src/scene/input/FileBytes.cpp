@@ -63,7 +63,7 @@ void InputFile::refusePointer() {
   std::string begin(kPointer.size(), '\0');
   read(begin.data(), begin.size());
   if (begin == kPointer)
-    throw FileError(m_path, "is what Git LFS has in place of the file: 'git lfs pull' in its folder gets the file");
+    throw FileError(m_path, "is a Git LFS pointer, not the file: 'git lfs pull' in its folder gets it");
   seek(0);
 }
 

@@ -46,7 +46,8 @@ std::vector<MeshObject> readBinary(std::string_view text, const Path& path, Read
                               " bytes, the file has " + std::to_string(text.size()));
   const std::uint32_t count = littleEndian<std::uint32_t>(text.substr(kHeaderSize - 4));
   const std::uint64_t surplus = text.size() - binarySize(text);
-  if (surplus != 0 && surplus % kFacetSize == 0)  // what some programs add is no such number of bytes
+  const bool isPadding = text.substr(binarySize(text)).find_first_not_of('\0') == std::string_view::npos;
+  if (!isPadding && surplus % kFacetSize == 0)
     throw FileError(path, "has " + std::to_string(count + surplus / kFacetSize) + " facets where its header says " +
                               std::to_string(count));
   if (count > std::numeric_limits<std::uint32_t>::max() / 3) throw FileError(path, "has too many facets");
