@@ -155,9 +155,9 @@ class MeshSearch {
     std::error_code problem;
     const fs::file_status status = fs::symlink_status(entry, problem);
     if (!problem || status.type() == fs::file_type::not_found) return true;  // that which is gone is reported later
-    const FileError error = FileError::ofSystem(entry, "cannot be looked at", problem);
-    if (!m_options.partial) throw error;
-    m_remarks.push_back(remarkOfMissing(entry, error));
+    const auto error = [&] { return FileError::ofSystem(entry, "cannot be looked at", problem); };
+    if (!m_options.partial) throw error();
+    m_remarks.push_back(remarkOfMissing(entry, error()));
     return false;
   }
 
