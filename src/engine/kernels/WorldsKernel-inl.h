@@ -54,8 +54,6 @@ HWY_INLINE Mask notAboveAlso(Mask also, Vector value, Vector other) {
 template <class T, bool kIsNearest = false>
 class BoundsTest {
  public:
-  static constexpr bool kHasDoubts = kIsNearest;
-
   HWY_INLINE explicit BoundsTest(const WorldTile<T>& tile) : m_tile(tile) {}
 
   /// The boxes that rows are tested against.
@@ -72,24 +70,26 @@ class BoundsTest {
     for (std::size_t bound = 0; bound < 6; ++bound) box[bound] = hn::Set(D(), m_tile[bound][row]);
     if constexpr (kVectors == 1) {
       hn::StoreMaskBits(D(), hits(box, m_columns[0]), byte);
-      if constexpr (kHasDoubts) hn::StoreMaskBits(D(), certainHits(box, m_columns[0]), byte + kToCertain);
+      if constexpr (kIsNearest) hn::StoreMaskBits(D(), certainHits(box, m_columns[0]), certainOf(byte));
     } else {
       std::uint32_t all = 0;
       std::uint32_t certain = 0;
       for (std::size_t vector = 0; vector < kVectors; ++vector) {
         all |= allBitsOf(D(), hits(box, m_columns[vector])) << (vector * hn::Lanes(D()));
-        if constexpr (kHasDoubts)
+        if constexpr (kIsNearest)
           certain |= allBitsOf(D(), certainHits(box, m_columns[vector])) << (vector * hn::Lanes(D()));
       }
       byte[0] = static_cast<std::uint8_t>(all);
-      if constexpr (kHasDoubts) byte[kToCertain] = static_cast<std::uint8_t>(certain);
+      if constexpr (kIsNearest) *certainOf(byte) = static_cast<std::uint8_t>(certain);
     }
   }
 
  private:
   using D = WorldTag<T>;
   static constexpr std::size_t kVectors = kColumnsAtOnce / hn::MaxLanes(D());
-  static constexpr std::size_t kToCertain = offsetof(WorldHits, certain);
+
+  /// Where those of the hits at a byte are stored that are certain.
+  static HWY_INLINE std::uint8_t* certainOf(std::uint8_t* byte) { return byte + offsetof(WorldHits, certain); }
 
   [[nodiscard]] static HWY_INLINE hn::Mask<D> hits(const hn::Vec<D>* box, const hn::Vec<D>* columns) {
     const auto from = [&](std::size_t axis) HWY_ATTR { return hn::Max(columns[axis], box[axis]); };
@@ -108,14 +108,13 @@ class BoundsTest {
   const WorldTile<T>& m_tile;
   hn::Vec<D> m_columns[kVectors][6];
 };
+using NearestTest = BoundsTest<float, true>;
 
 /// Boxes in double, apart as the contract says it: if a minimum exceeds the other's maximum plus the distance of the
 /// two. Where that sum is NaN they are not apart. Whether a box is empty is the caller's to say.
 template <bool kPreceding>
 class WideTest {
  public:
-  static constexpr bool kHasDoubts = false;
-
   HWY_INLINE explicit WideTest(const WideWorld& world) : m_world(world) {}
 
   HWY_INLINE void setColumns(std::size_t place) { m_place = place; }
@@ -250,9 +249,9 @@ struct Partners {
   }
 };
 
-/// The hits of rows in [begin, end) as pairs. With kUnasked pairs of a word that are written unasked; 0 counts pairs
-/// only. Returns whether all are certain.
-template <bool kPreceding, std::size_t kUnasked, bool kHasDoubts>
+/// The hits of rows in [begin, end) as pairs, or counted only. With kUnasked pairs of a word that are written unasked.
+/// Returns whether all are certain.
+template <bool kPreceding, bool kCount, std::size_t kUnasked, class Test>
 HWY_INLINE bool takeRows(const WorldHits& hits, const WorldPlaces places, std::size_t begin, std::size_t end,
                          const Partners partners, WorldSink& sink) {
   const std::uint64_t* words = hits.all.data() + begin % kWordBoxes * places.words;
@@ -265,8 +264,8 @@ HWY_INLINE bool takeRows(const WorldHits& hits, const WorldPlaces places, std::s
     const std::size_t endWord = kPreceding ? row / kWordBoxes + 1 : places.words;
     for (std::size_t word = firstWord; word < endWord; ++word) {
       const std::uint64_t bits = bitsOfRow<kPreceding>(words[word], word, row, places) & partners.of(row, word);
-      if constexpr (kHasDoubts) doubts |= bits & ~certain[word];
-      if constexpr (kUnasked == 0) {
+      if constexpr (std::is_same_v<Test, NearestTest>) doubts |= bits & ~certain[word];
+      if constexpr (kCount) {
         size += static_cast<std::size_t>(std::popcount(bits));
       } else {
         const auto firstOfWord = static_cast<std::uint32_t>(word * kWordBoxes - places.first);
@@ -282,20 +281,17 @@ HWY_INLINE bool takeRows(const WorldHits& hits, const WorldPlaces places, std::s
 /// ones few words have more than two.
 template <bool kPreceding, bool kCount, class Test>
 HWY_INLINE bool searchWorld(const Test& test, const WorldPlaces& places, const Partners& partners, WorldSink& sink) {
-  constexpr std::size_t kOfOneWord = kCount ? 0 : 4;
-  constexpr std::size_t kOfSeveral = kCount ? 0 : 2;
-  constexpr bool kHasDoubts = Test::kHasDoubts;
   WorldHits hits;
   if (places.words == 1) {
     const WorldPlaces one{places.first, kWordBoxes, 1};
     testRows<kPreceding>(test, one, one.first, hits);
-    return takeRows<kPreceding, kOfOneWord, kHasDoubts>(hits, one, one.first, kWordBoxes, partners, sink);
+    return takeRows<kPreceding, kCount, 4, Test>(hits, one, one.first, kWordBoxes, partners, sink);
   }
   bool areCertain = true;
   for (std::size_t begin = places.first; begin < places.end;) {
     const std::size_t end = begin / kWordBoxes * kWordBoxes + kWordBoxes;
     testRows<kPreceding>(test, places, begin, hits);
-    areCertain &= takeRows<kPreceding, kOfSeveral, kHasDoubts>(hits, places, begin, end, partners, sink);
+    areCertain &= takeRows<kPreceding, kCount, 2, Test>(hits, places, begin, end, partners, sink);
     begin = end;
   }
   return areCertain;
@@ -341,7 +337,7 @@ HWY_NOINLINE bool searchNearest(const WorldsRun<double>& run, std::size_t first,
   alignas(64) WorldTile<float> tile;
   readWorld(run, first, places, tile);
   const std::uint64_t before = sink.size;
-  if (searchRead<kPreceding, kPlain>(BoundsTest<float, true>(tile), places, sink)) return true;
+  if (searchRead<kPreceding, kPlain>(NearestTest(tile), places, sink)) return true;
   sink.size = before;
   return false;
 }

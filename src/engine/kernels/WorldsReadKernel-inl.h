@@ -41,12 +41,11 @@ using DoublesRead = ReadTag<double>;
 /// as 16 bytes have values.
 template <class D>
 HWY_INLINE hn::Vec<D> blockOfBoxes(D d, const hn::TFromD<D>* values) {
-  constexpr std::size_t kBlock = 16 / sizeof(hn::TFromD<D>);
-  if constexpr (hn::MaxLanes(D()) == kBlock) {
+  if constexpr (sizeof(hn::TFromD<D>) * hn::MaxLanes(D()) == 16) {
     return hn::LoadU(d, values);
   } else {
     const hn::Half<D> half;
-    return hn::Combine(d, hn::LoadU(half, values + 6 * kBlock), hn::LoadU(half, values));
+    return hn::Combine(d, hn::LoadU(half, values + 6 * hn::Lanes(half)), hn::LoadU(half, values));
   }
 }
 
