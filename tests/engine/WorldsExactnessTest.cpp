@@ -15,6 +15,7 @@
 #include <string_view>
 #include <vector>
 
+#include "allpairs/World.h"
 #include "allpairs/Worlds.h"
 #include "support/Boxes.h"
 #include "support/Oracle.h"
@@ -87,7 +88,7 @@ struct HairsApart {
     std::mt19937 generator(seed);
     for (std::size_t world = 0; world < 96; ++world) {
       static constexpr double kScales[] = {1.0, 0.1, 1e300, 3e38, 1e-40, 1e-46, 1e-310};
-      static constexpr std::size_t kSizes[] = {1, 2, 5, 20, 33, 64, 65, 130, 190, 250};
+      static constexpr std::size_t kSizes[] = {1, 2, 5, 20, 33, 64, 65, 130, 190, 440};
       const double scale = kScales[world / 3 % std::size(kScales)];
       const bool isOnGrid = world % 40 < 20;  // Long rows of worlds with hairs, and without.
       const auto bound = [&](double value) {
@@ -132,6 +133,31 @@ TEST_P(WorldsApart, ByLessThanFloat32TellsGiveTheOraclesPairs) {
         ASSERT_THAT(found[k], ElementsAreArray(test::inOrder(test::oracle(scene.world(k)), order))) << "world " << k;
       }
       EXPECT_THAT(search.count(worlds), ElementsAreArray(ends));
+    }
+  }
+}
+
+TEST_P(WorldsApart, ByLessThanFloat32TellsGiveTheOraclesPairsInEachStep) {
+  for (const Order order : {Order::ByFirst, Order::BySecond}) {
+    World world({.order = order, .instructionSet = GetParam()});
+    HairsApart scene(static_cast<unsigned>(GetParam().back()));
+    std::vector<BoxProperties> properties(scene.boxes.size());
+    for (std::size_t k = 0; k + 1 < scene.begin.size(); ++k) {
+      for (std::uint64_t i = scene.begin[k]; i < scene.begin[k + 1]; ++i)
+        properties[i].world = static_cast<std::uint32_t>(k);
+    }
+    std::vector<BoxId> ids(scene.boxes.size());
+    world.add(BoxView(scene.boxes), properties, ids);
+    for (unsigned step = 0; step < 3; ++step) {
+      std::vector<Pair> expected;
+      for (std::size_t k = 0; k + 1 < scene.begin.size(); ++k) {
+        const auto first = static_cast<BoxId>(scene.begin[k]);
+        for (const Pair& pair : test::oracle(scene.world(k)))
+          expected.push_back({pair.first + first, pair.second + first});
+      }
+      ASSERT_THAT(world.step().pairs, ElementsAreArray(test::inOrder(expected, order))) << "step " << step;
+      scene = HairsApart(1000 + step);
+      world.move(ids, BoxView(scene.boxes));
     }
   }
 }

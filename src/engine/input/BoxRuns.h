@@ -41,13 +41,19 @@ template <class T>
   return {corners.min.data, corners.max.data, static_cast<std::size_t>(corners.min.boxStride), boxes.size()};
 }
 
-/// Whether rows of six overlap; no comparison is true of an empty box.
+/// Whether two boxes overlap, given their corners; no comparison is true of an empty box.
+template <class T>
+[[nodiscard]] bool areHit(const T* min, const T* max, const T* otherMin, const T* otherMax) noexcept {
+  const bool x = std::max(min[0], otherMin[0]) <= std::min(max[0], otherMax[0]);
+  const bool y = std::max(min[1], otherMin[1]) <= std::min(max[1], otherMax[1]);
+  const bool z = std::max(min[2], otherMin[2]) <= std::min(max[2], otherMax[2]);
+  return x & y & z;
+}
+
+/// The same of rows of six.
 template <class T>
 [[nodiscard]] bool areHit(const T* a, const T* b) noexcept {
-  const bool x = std::max(a[0], b[0]) <= std::min(a[3], b[3]);
-  const bool y = std::max(a[1], b[1]) <= std::min(a[4], b[4]);
-  const bool z = std::max(a[2], b[2]) <= std::min(a[5], b[5]);
-  return x & y & z;
+  return areHit(a, a + 3, b, b + 3);
 }
 
 }  // namespace allpairs::engine

@@ -20,6 +20,7 @@
 #include "kernels/Kernels.h"
 #include "kernels/LaneTest-inl.h"
 #include "kernels/LoadKernel-inl.h"
+#include "kernels/NearestKernel-inl.h"
 #include "kernels/WorldsReadKernel-inl.h"
 #include "kernels/WorldsRun.h"
 
@@ -48,10 +49,9 @@ HWY_INLINE Mask notAboveAlso(Mask also, Vector value, Vector other) {
 #endif
 }
 
-/// Boxes against each other: exact, and empty boxes hit nothing. Where the bounds are those of float64 boxes as the
-/// nearest float32, which keeps their order or makes them equal, whatever overlaps is a hit, and a hit is certain if no
-/// bounds that are compared are equal.
-template <class T, bool kIsNearest = false>
+/// Boxes against each other: exact, and empty boxes hit nothing. Of float64 boxes as the nearest float32 a hit is
+/// certain if no bounds that are compared are equal.
+template <class T, bool kMarksCertain = false>
 class BoundsTest {
  public:
   HWY_INLINE explicit BoundsTest(const WorldTile<T>& tile) : m_tile(tile) {}
@@ -70,17 +70,17 @@ class BoundsTest {
     for (std::size_t bound = 0; bound < 6; ++bound) box[bound] = hn::Set(D(), m_tile[bound][row]);
     if constexpr (kVectors == 1) {
       hn::StoreMaskBits(D(), hits(box, m_columns[0]), byte);
-      if constexpr (kIsNearest) hn::StoreMaskBits(D(), certainHits(box, m_columns[0]), certainOf(byte));
+      if constexpr (kMarksCertain) hn::StoreMaskBits(D(), certainHits(box, m_columns[0]), certainOf(byte));
     } else {
       std::uint32_t all = 0;
       std::uint32_t certain = 0;
       for (std::size_t vector = 0; vector < kVectors; ++vector) {
         all |= allBitsOf(D(), hits(box, m_columns[vector])) << (vector * hn::Lanes(D()));
-        if constexpr (kIsNearest)
+        if constexpr (kMarksCertain)
           certain |= allBitsOf(D(), certainHits(box, m_columns[vector])) << (vector * hn::Lanes(D()));
       }
       byte[0] = static_cast<std::uint8_t>(all);
-      if constexpr (kIsNearest) *certainOf(byte) = static_cast<std::uint8_t>(certain);
+      if constexpr (kMarksCertain) *certainOf(byte) = static_cast<std::uint8_t>(certain);
     }
   }
 
@@ -108,7 +108,23 @@ class BoundsTest {
   const WorldTile<T>& m_tile;
   hn::Vec<D> m_columns[kVectors][6];
 };
-using NearestTest = BoundsTest<float, true>;
+
+/// Boxes of float64 as the nearest float32, and what is not certain as they are.
+class NearestTest : public BoundsTest<float, true> {
+ public:
+  HWY_INLINE NearestTest(const WorldTile<float>& tile, const RowsTest& exact)
+      : BoundsTest<float, true>(tile), m_exact(exact) {}
+
+  /// Of the hits of a box with those of a word the ones that overlap it.
+  [[nodiscard]] HWY_INLINE std::uint64_t exactOf(std::uint64_t bits, std::uint64_t certain, std::uint32_t box,
+                                                 std::uint32_t firstOfWord) const {
+    const std::uint64_t doubts = bits & ~certain;
+    return HWY_LIKELY(doubts == 0) ? bits : bits ^ doubts ^ m_exact.hitsOf(doubts, box, firstOfWord);
+  }
+
+ private:
+  const RowsTest& m_exact;
+};
 
 /// Boxes in double, apart as the contract says it: if a minimum exceeds the other's maximum plus the distance of the
 /// two. Where that sum is NaN they are not apart. Whether a box is empty is the caller's to say.
@@ -250,102 +266,95 @@ struct Partners {
 };
 
 /// The hits of rows in [begin, end) as pairs, or counted only. With kUnasked pairs of a word that are written unasked.
-/// Returns whether all are certain.
 template <bool kPreceding, bool kCount, std::size_t kUnasked, class Test>
-HWY_INLINE bool takeRows(const WorldHits& hits, const WorldPlaces places, std::size_t begin, std::size_t end,
+HWY_INLINE void takeRows(const Test& test, const WorldHits& hits, const WorldPlaces places, std::size_t begin,
                          const Partners partners, WorldSink& sink) {
   const std::uint64_t* words = hits.all.data() + begin % kWordBoxes * places.words;
   const std::uint64_t* certain = hits.certain.data() + begin % kWordBoxes * places.words;
-  std::uint64_t doubts = 0;
+  const std::size_t end = (begin / kWordBoxes + 1) * kWordBoxes;
   std::uint64_t size = sink.size;
   for (std::size_t row = begin; row < end; ++row, words += places.words, certain += places.words) {
     const auto box = static_cast<std::uint32_t>(row - places.first);
     const std::size_t firstWord = kPreceding ? 0 : row / kWordBoxes;
     const std::size_t endWord = kPreceding ? row / kWordBoxes + 1 : places.words;
     for (std::size_t word = firstWord; word < endWord; ++word) {
-      const std::uint64_t bits = bitsOfRow<kPreceding>(words[word], word, row, places) & partners.of(row, word);
-      if constexpr (std::is_same_v<Test, NearestTest>) doubts |= bits & ~certain[word];
+      const auto firstOfWord = static_cast<std::uint32_t>(word * kWordBoxes - places.first);
+      std::uint64_t bits = bitsOfRow<kPreceding>(words[word], word, row, places) & partners.of(row, word);
+      if constexpr (std::is_same_v<Test, NearestTest>) bits = test.exactOf(bits, certain[word], box, firstOfWord);
       if constexpr (kCount) {
         size += static_cast<std::size_t>(std::popcount(bits));
       } else {
-        const auto firstOfWord = static_cast<std::uint32_t>(word * kWordBoxes - places.first);
         size += writeBits<kPreceding, kUnasked>(bits, box, firstOfWord, sink.pairs + size);
       }
     }
   }
   sink.size = size;
-  return doubts == 0;
 }
 
-/// All pairs of one world; returns whether they are certain. Of worlds of one word most rows have hits in it; of larger
+/// All pairs of one world. Of worlds of one word most rows have hits in it; of larger
 /// ones few words have more than two.
 template <bool kPreceding, bool kCount, class Test>
-HWY_INLINE bool searchWorld(const Test& test, const WorldPlaces& places, const Partners& partners, WorldSink& sink) {
+HWY_INLINE void searchWorld(const Test& test, const WorldPlaces& places, const Partners& partners, WorldSink& sink) {
   WorldHits hits;
   if (places.words == 1) {
     const WorldPlaces one{places.first, kWordBoxes, 1};
     testRows<kPreceding>(test, one, one.first, hits);
-    return takeRows<kPreceding, kCount, 4, Test>(hits, one, one.first, kWordBoxes, partners, sink);
+    takeRows<kPreceding, kCount, 4>(test, hits, one, one.first, partners, sink);
+    return;
   }
-  bool areCertain = true;
-  for (std::size_t begin = places.first; begin < places.end;) {
-    const std::size_t end = begin / kWordBoxes * kWordBoxes + kWordBoxes;
+  for (std::size_t begin = places.first; begin < places.end; begin = (begin / kWordBoxes + 1) * kWordBoxes) {
     testRows<kPreceding>(test, places, begin, hits);
-    areCertain &= takeRows<kPreceding, kCount, 2, Test>(hits, places, begin, end, partners, sink);
-    begin = end;
+    takeRows<kPreceding, kCount, 2>(test, hits, places, begin, partners, sink);
   }
-  return areCertain;
 }
 
 /// The same, for what is known of all worlds only now.
 template <bool kPreceding, class Test>
-HWY_INLINE bool searchSome(const Test& test, const WorldPlaces& places, const Partners& partners, WorldSink& sink) {
-  return sink.countOnly ? searchWorld<kPreceding, true>(test, places, partners, sink)
-                        : searchWorld<kPreceding, false>(test, places, partners, sink);
+HWY_INLINE void searchSome(const Test& test, const WorldPlaces& places, const Partners& partners, WorldSink& sink) {
+  sink.countOnly ? searchWorld<kPreceding, true>(test, places, partners, sink)
+                 : searchWorld<kPreceding, false>(test, places, partners, sink);
 }
 
 /// Searches the boxes of a world as a test has them. Worlds without a filter whose pairs are wanted by their first
 /// boxes have a loop of their own.
 template <bool kPreceding, bool kPlain, class Test>
-HWY_INLINE bool searchRead(const Test& test, const WorldPlaces& places, WorldSink& sink) {
+HWY_INLINE void searchRead(const Test& test, const WorldPlaces& places, WorldSink& sink) {
   if constexpr (kPlain) {
-    return searchWorld<kPreceding, false>(test, places, {places}, sink);
+    searchWorld<kPreceding, false>(test, places, {places}, sink);
   } else {
-    return searchSome<kPreceding>(test, places, {places, sink.allowed}, sink);
+    searchSome<kPreceding>(test, places, {places, sink.allowed}, sink);
   }
 }
 
-/// Reads a world and searches it as its boxes are.
-template <bool kPreceding, bool kPlain, class T>
-HWY_INLINE void searchExactly(const WorldsRun<T>& run, std::size_t first, const WorldPlaces& places, WorldSink& sink) {
-  alignas(64) WorldTile<T> tile;
+template <bool kPreceding, bool kPlain>
+HWY_INLINE void searchExactly(const WorldsRun<float>& run, std::size_t first, const WorldPlaces& places,
+                              WorldSink& sink) {
+  alignas(64) WorldTile<float> tile;
   readWorld(run, first, places, tile);
-  searchRead<kPreceding, kPlain>(BoundsTest<T>(tile), places, sink);
+  searchRead<kPreceding, kPlain>(BoundsTest<float>(tile), places, sink);
 }
 
-/// A function of its own, as is the next one: what is inlined into one compilers keep in memory, not in registers.
-template <bool kPreceding, bool kPlain>
-HWY_NOINLINE void searchInDouble(const WorldsRun<double>& run, std::size_t first, const WorldPlaces& places,
-                                 WorldSink& sink) {
-  searchExactly<kPreceding, kPlain>(run, first, places, sink);
-}
-
-/// The same of boxes of float64 in float32; returns whether all pairs are certain, else leaves the sink as it was.
-template <bool kPreceding, bool kPlain>
-HWY_NOINLINE bool searchNearest(const WorldsRun<double>& run, std::size_t first, const WorldPlaces& places,
+/// The same of boxes of float64 as the nearest float32, and in double what may be apart: of few pairs all, of many
+/// those that are not certain, for which each test takes longer. A function of its own: what is inlined into the loop
+/// over worlds compilers keep in memory, not in registers.
+template <bool kPreceding, bool kPlain, bool kMany>
+HWY_NOINLINE void searchNearest(const WorldsRun<double>& run, std::size_t first, const WorldPlaces& places,
                                 WorldSink& sink) {
   alignas(64) WorldTile<float> tile;
   readWorld(run, first, places, tile);
-  const std::uint64_t before = sink.size;
-  if (searchRead<kPreceding, kPlain>(NearestTest(tile), places, sink)) return true;
-  sink.size = before;
-  return false;
+  const RowsTest exact(run.boxes.part(first, places.end - places.first));
+  if constexpr (kMany) {
+    searchRead<kPreceding, kPlain>(NearestTest(tile, exact), places, sink);
+  } else {
+    const std::uint64_t before = sink.size;
+    searchRead<kPreceding, kPlain>(BoundsTest<float>(tile), places, sink);
+    sink.size = before + exact.select(sink.pairs + before, sink.size - before);
+  }
 }
 
 template <bool kPreceding, bool kPlain, class T>
 HWY_INLINE void searchRun(WorldsRun<T>& run) {
   WorldSink sink = run.sink;
-  [[maybe_unused]] std::size_t inDouble = 0;  // So many worlds more are not searched in float32.
   for (; run.world < run.end; ++run.world) {
     const std::size_t first = run.worlds->begin(run.world);
     const std::size_t boxes = run.worlds->begin(run.world + 1) - first;
@@ -355,12 +364,11 @@ HWY_INLINE void searchRun(WorldsRun<T>& run) {
     if constexpr (std::is_same_v<T, float>) {
       searchExactly<kPreceding, kPlain>(run, first, places, sink);
     } else {
-      // After a world with a pair in doubt the next ones often have such pairs too.
-      if (inDouble == 0 && !searchNearest<kPreceding, kPlain>(run, first, places, sink)) inDouble = kFanOut;
-      if (inDouble != 0) {
-        searchInDouble<kPreceding, kPlain>(run, first, places, sink);
-        --inDouble;
-      }
+      const std::uint64_t before = sink.size;
+      run.hadMany || sink.countOnly ? searchNearest<kPreceding, kPlain, true>(run, first, places, sink)
+                                    : searchNearest<kPreceding, kPlain, false>(run, first, places, sink);
+      // A pair tested alone takes as long as so many boxes together.
+      run.hadMany = (sink.size - before) * kFanOut > WorldSink::pairsOf(boxes);
     }
     run.pairEnd[run.world] = sink.size;
     run.boxTests += WorldSink::pairsOf(boxes);

@@ -93,6 +93,9 @@ struct WorldsRun {
   /// pairEnd[k] receives the sink's size after world k.
   std::uint64_t* pairEnd = nullptr;
   std::uint64_t boxTests = 0;
+
+  /// Of float64: whether the last world had many pairs for its boxes, as the next one then has; for speed only.
+  bool hadMany = false;
 };
 
 /// One world in double, the exact test of boxes with margins and a distance.

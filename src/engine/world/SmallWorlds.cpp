@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstring>
 #include <iterator>
 
 #include "allpairs/Worlds.h"
@@ -23,11 +22,10 @@ void SmallWorlds::start(const BoxStore& store, const PairTest& filter, std::size
   m_store = &store;
   m_filter = &filter;
   m_boxes = store.tested().boxes;
-  const bool onlyBoundsMatter = !m_boxes->hasMargins() && m_options.distance == 0.0;
-  m_isPlain = onlyBoundsMatter && !m_boxes->isFloat64();
+  m_isPlain = !m_boxes->hasMargins() && m_options.distance == 0.0;
   // Half as many again as are tested exhaustively: a quarter of the boxes at most has changed.
   const std::size_t most = std::min(kMostFew, m_kernels.flatBoxes + m_kernels.flatBoxes / 2);
-  m_takesChanged = onlyBoundsMatter && !store.isNumbered() && m_boxes->size() <= most;
+  m_takesChanged = m_isPlain && !store.isNumbered() && m_boxes->size() <= most;
   const std::size_t listed = store.isNumbered() ? kMostInWorld : kMostAlone;
   m_mostBoxes = std::min({listed, m_kernels.flatBoxes, m_isPlain ? kMostInWorld : m_kernels.wideBoxes});
   m_workers.require(threads);
@@ -75,20 +73,20 @@ std::size_t SmallWorlds::listRow(std::span<const std::uint32_t> worlds, Worker& 
 }
 
 /// The pairs of worlds of a row, after those that are done, as many worlds as there is room for.
-std::span<const Pair> SmallWorlds::findInRow(std::size_t row, std::size_t& done, Worker& worker) const {
+template <class T>
+std::span<const Pair> SmallWorlds::findInRowOf(std::size_t row, std::size_t& done, Worker& worker) const {
   const std::span<const std::uint64_t> begin(worker.begin.data(), row + 2);
   const Worlds worlds(m_boxes->slice(0, begin.back()), begin);
   // Two parts of pairs stay in a second-level cache until they are taken.
   const std::size_t least = WorldSink::roomFor(begin[done + 2] - begin[done + 1]);
   worker.pairs.require(done + 1 == row ? least : std::max(2 * kPartSize, least));
-  WorldsRun<float> run;
-  run.sink = sinkOf(worker);
-  run.boxes = runOf<float>(*m_boxes);
+  WorldsRun<T> run;
+  run.boxes = runOf<T>(*m_boxes);
   run.worlds = &worlds;
   run.world = done + 1;
   run.end = row + 1;
   run.pairEnd = worker.pairEnd.data();
-  m_kernels.plain<float>().searchWorlds(run);
+  searchRun(run, worker);
   worker.boxTests += run.boxTests;
   Pair* pair = worker.pairs.data();
   for (; done + 1 < run.world; ++done) {
@@ -100,11 +98,17 @@ std::span<const Pair> SmallWorlds::findInRow(std::size_t row, std::size_t& done,
   return pairs.first(select(m_members.everyWorld(), pairs));
 }
 
+std::span<const Pair> SmallWorlds::findInRow(std::size_t row, std::size_t& done, Worker& worker) const {
+  return m_boxes->isFloat64() ? findInRowOf<double>(row, done, worker) : findInRowOf<float>(row, done, worker);
+}
+
 std::span<const Pair> SmallWorlds::find(std::size_t world, Worker& worker) const {
   if (m_members.boxes(world).empty()) return {};
   const std::span<const BoxId> ids = idsOf(world, worker);
   worker.pairs.require(WorldSink::roomFor(ids.size()));
-  const std::uint64_t size = m_isPlain ? runPlain(ids, worker) : runWide(ids, worker);
+  const std::uint64_t size = !m_isPlain             ? runWide(ids, worker)
+                             : m_boxes->isFloat64() ? runPlain<double>(ids, worker)
+                                                    : runPlain<float>(ids, worker);
   worker.boxTests += WorldSink::pairsOf(ids.size());
   const std::span<Pair> pairs(worker.pairs.data(), size);
   for (Pair& pair : pairs) pair = {ids[pair.first], ids[pair.second]};
@@ -117,25 +121,31 @@ WorldSink SmallWorlds::sinkOf(const Worker& worker) const noexcept {
   return sink;
 }
 
-/// Boxes of float32 that are not in a row are copied. Returns the number of pairs.
+template <class T>
+void SmallWorlds::searchRun(WorldsRun<T>& run, Worker& worker) const {
+  run.sink = sinkOf(worker);
+  run.hadMany = worker.hadMany;
+  m_kernels.plain<T>().searchWorlds(run);
+  worker.hadMany = run.hadMany;
+}
+
+/// Boxes that are not in a row are copied. Returns the number of pairs.
+template <class T>
 std::uint64_t SmallWorlds::runPlain(std::span<const BoxId> ids, Worker& worker) const {
-  worker.rows.require(6 * ids.size());
-  float* to = worker.rows.data();
-  for (const BoxId id : ids) {
-    std::memcpy(to, m_boxes->float32().min.data + std::size_t{6} * id, 6 * sizeof(float));
-    to += 6;
-  }
+  auto& rows = std::get<Buffer<T>>(worker.rows);
+  rows.require(6 * ids.size());
+  T* to = rows.data();
+  for (const BoxId id : ids) to = std::copy_n(cornersOf<T>(*m_boxes).min.data + std::size_t{6} * id, 6, to);
   // The kernel asks only where worlds begin.
   const std::array<std::uint64_t, 2> begin{0, ids.size()};
   const Worlds worlds(m_boxes->slice(0, ids.size()), begin);
   std::uint64_t pairEnd = 0;
-  WorldsRun<float> run;
-  run.sink = sinkOf(worker);
-  run.boxes = {worker.rows.data(), worker.rows.data() + 3, 6, ids.size()};
+  WorldsRun<T> run;
+  run.boxes = {rows.data(), rows.data() + 3, 6, ids.size()};
   run.worlds = &worlds;
   run.end = 1;
   run.pairEnd = &pairEnd;
-  m_kernels.plain<float>().searchWorlds(run);
+  searchRun(run, worker);
   return run.sink.size;
 }
 

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include "allpairs/Executor.h"
@@ -72,23 +73,29 @@ class SmallWorlds {
  private:
   struct Worker {
     explicit Worker(std::pmr::memory_resource* memory)
-        : begin(memory), pairEnd(memory), ids(memory), rows(memory), pairs(memory), wide(memory) {}
+        : begin(memory), pairEnd(memory), ids(memory), rows(memory, memory), pairs(memory), wide(memory) {}
 
     Buffer<std::uint64_t> begin;    ///< Of a row of worlds: 0, and where each begins, and the last one ends.
     Buffer<std::uint64_t> pairEnd;  ///< What the kernel says.
     Buffer<BoxId> ids;
-    Buffer<float> rows;
+    std::tuple<Buffer<float>, Buffer<double>> rows;
     Buffer<Pair> pairs;
     Buffer<WideWorld> wide;
     std::uint64_t boxTests = 0;
+    bool hadMany = false;  ///< As the kernel has it.
     std::atomic_flag busy;
   };
 
   std::size_t listRow(std::span<const std::uint32_t> worlds, Worker& worker) const;
   std::span<const Pair> findInRow(std::size_t row, std::size_t& done, Worker& worker) const;
+  template <class T>
+  std::span<const Pair> findInRowOf(std::size_t row, std::size_t& done, Worker& worker) const;
+  template <class T>
+  void searchRun(WorldsRun<T>& run, Worker& worker) const;
   std::span<const Pair> find(std::size_t world, Worker& worker) const;
   std::span<const BoxId> idsOf(std::size_t world, Worker& worker) const;
   [[nodiscard]] WorldSink sinkOf(const Worker& worker) const noexcept;
+  template <class T>
   std::uint64_t runPlain(std::span<const BoxId> ids, Worker& worker) const;
   std::uint64_t runWide(std::span<const BoxId> ids, Worker& worker) const;
   template <class T>
@@ -101,7 +108,7 @@ class SmallWorlds {
   const PairTest* m_filter = nullptr;
   const BoxView* m_boxes = nullptr;
   std::size_t m_mostBoxes = 0;  ///< Of a world that the kernels search.
-  bool m_isPlain = false;       ///< Rows of float32 that the kernel takes as they are.
+  bool m_isPlain = false;       ///< Rows that the kernel takes as they are.
   bool m_takesChanged = false;
   Workers<Worker> m_workers;
 };

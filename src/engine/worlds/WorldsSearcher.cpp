@@ -23,19 +23,16 @@ std::uint64_t workOf(std::uint64_t boxes, std::uint64_t mostBoxes) {
   return 16 + boxes * (boxes <= mostBoxes ? 4 + boxes / kFanOut : 64);
 }
 
-/// How many times more boxes the kernel for worlds takes than a search of one set tests exhaustively, and of float64
-/// than are tested in double, until a hierarchy is faster: it does not put pairs in order, and rounds to the nearest
-/// only (worlds_benchmark).
+/// How many times more boxes the kernel for worlds takes than a search of one set tests exhaustively, until a hierarchy
+/// is faster: it does not put pairs in order, and rounds to the nearest at most (worlds_benchmark).
 constexpr std::size_t kTimesFlat = 2;
 
 /// The number of boxes up to which the exhaustive kernel finds the pairs that a search would, in the same order.
-std::size_t mostBoxesOf(const Kernels& kernels, const OverlapOptions& options, bool areFloat64) {
+std::size_t mostBoxesOf(const Kernels& kernels, const OverlapOptions& options) {
   if (options.strategy == Strategy::Bvh) return 0;
   if (options.strategy == Strategy::Exhaustive) return kMostInWorld;
   const std::size_t flat = kernels.flatBoxes;
-  const std::size_t wide = kernels.wideBoxes;
-  const std::size_t most = areFloat64 ? std::clamp(flat, wide, kTimesFlat * wide) : kTimesFlat * flat;
-  return std::min({kMostInWorld, most, options.order == Order::Unordered ? flat : most});
+  return std::min(kMostInWorld, options.order == Order::Unordered ? flat : kTimesFlat * flat);
 }
 
 /// Whether the pairs of a world can be written to the sink at once.
@@ -61,7 +58,7 @@ void WorldsSearcher::begin(const Worlds& worlds, const OverlapOptions& options) 
   const BoxView& boxes = worlds.boxes();
   m_isPlain = options.distance == 0.0 && !options.region && !boxes.hasMargins() &&
               (areRun<float>(boxes) || areRun<double>(boxes));
-  m_mostBoxes = mostBoxesOf(*m_kernels, options, boxes.isFloat64());
+  m_mostBoxes = mostBoxesOf(*m_kernels, options);
   if (!m_isPlain) m_mostBoxes = std::min(m_mostBoxes, m_kernels->wideBoxes);
   m_filter.prepare(worlds, options, m_mostBoxes);
   m_workers.require(m_executor->concurrency());

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+// Hits among boxes of float64 as the nearest float32, tested in double one by one. Rounding to the nearest keeps the
+// order of two bounds or makes them equal, so that what overlaps is a hit, and a hit may be boxes apart.
+
+#if defined(ALLPAIRS_NEAREST_KERNEL_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef ALLPAIRS_NEAREST_KERNEL_INL_H
+#undef ALLPAIRS_NEAREST_KERNEL_INL_H
+#else
+#define ALLPAIRS_NEAREST_KERNEL_INL_H
+#endif
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+
+#include "input/BoxRuns.h"
+#include "kernels/LaneTest-inl.h"
+#include "kernels/Lanes.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace allpairs::engine::HWY_NAMESPACE {
+namespace {  // Each file that compiles the kernels has its own.
+
+/// Boxes of float64 in rows of six or three, tested one pair at a time.
+class RowsTest {
+ public:
+  HWY_INLINE explicit RowsTest(const BoxRun<double>& boxes) : m_boxes(boxes) {}
+
+  [[nodiscard]] HWY_INLINE bool areHit(Pair pair) const {
+    const double* const min = m_boxes.min + m_boxes.stride * pair.first;
+    const double* const max = m_boxes.max + m_boxes.stride * pair.first;
+    const double* const otherMin = m_boxes.min + m_boxes.stride * pair.second;
+    const double* const otherMax = m_boxes.max + m_boxes.stride * pair.second;
+    const hn::CappedTag<double, 4> d;
+    if constexpr (hn::MaxLanes(d) < 4) {
+      return engine::areHit(min, max, otherMin, otherMax);
+    } else {
+      const auto axes = hn::FirstN(d, 3);
+      const auto from = hn::Max(hn::MaskedLoad(axes, d, min), hn::MaskedLoad(axes, d, otherMin));
+      const auto to = hn::Min(hn::MaskedLoad(axes, d, max), hn::MaskedLoad(axes, d, otherMax));
+      return hn::AllTrue(d, hn::Le(from, to));
+    }
+  }
+
+  /// Moves the pairs that are hits to the front; returns their number.
+  [[nodiscard]] HWY_INLINE std::size_t select(Pair* pairs, std::size_t count) const {
+    std::size_t size = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      const Pair pair = pairs[i];
+      pairs[size] = pair;
+      size += static_cast<std::size_t>(areHit(pair));
+    }
+    return size;
+  }
+
+  /// Of the boxes of a word, as bits, those that a box hits.
+  [[nodiscard]] HWY_NOINLINE std::uint64_t hitsOf(std::uint64_t bits, std::uint32_t box,
+                                                  std::uint32_t firstOfWord) const {
+    std::uint64_t hits = bits;
+    for (; bits != 0; bits &= bits - 1) {
+      const std::uint32_t other = firstOfWord + static_cast<std::uint32_t>(std::countr_zero(bits));
+      if (!areHit({box, other})) hits ^= bits & (~bits + 1);
+    }
+    return hits;
+  }
+
+ private:
+  BoxRun<double> m_boxes;
+};
+
+}  // namespace
+}  // namespace allpairs::engine::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // ALLPAIRS_NEAREST_KERNEL_INL_H
