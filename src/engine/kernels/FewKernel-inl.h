@@ -75,13 +75,6 @@ HWY_INLINE std::uint64_t hitsOf(const T* row, const FewColumns<T>& columns, std:
 /// So many bits, from the lowest on; fewer than a word has.
 HWY_INLINE std::uint64_t lowBits(std::size_t count) { return ~(~std::uint64_t{0} << count); }
 
-/// Which columns of a row's own word are tested, of one set.
-template <Columns kTested>
-HWY_INLINE std::uint64_t testedOfOwnWord(std::size_t row) {
-  if (kTested == Columns::Following) return ~std::uint64_t{1} << (row % kWordBoxes);
-  return kTested == Columns::Preceding ? lowBits(row % kWordBoxes) : ~std::uint64_t{0};
-}
-
 /// Writes a vector of pairs, of which `ids` come first, or second.
 template <bool kIdsSecond>
 HWY_INLINE void storePairs(hn::Vec<IdTag> ids, hn::Vec<IdTag> others, Pair* pairs) {
@@ -108,24 +101,19 @@ HWY_INLINE std::size_t writeManyBits(std::uint64_t bits, std::uint32_t row, std:
   return size;
 }
 
-template <class T, Columns kTested, bool kRowSecond, bool kOneWord>
+template <class T, bool kRowSecond, bool kOneWord>
 HWY_INLINE std::size_t searchFew(PlainSearch<T>& search, Pair* pairs) {
   alignas(64) FewColumns<T> columns;
   readAllColumns(search.columns, search.columnCount, columns);
-  const std::size_t lanes = hn::Lanes(hn::CappedTag<T, kFanOut>());
   const std::size_t lastWord = kOneWord ? 0 : (search.columnCount - 1) / kWordBoxes;
   const std::uint64_t lastBits = ~std::uint64_t{0} >> (kWordBoxes - 1 - (search.columnCount - 1) % kWordBoxes);
   std::size_t size = 0;
   std::size_t row = search.rowBegin;
   for (; row < search.rowCount && size + search.columnCount <= search.room; ++row) {
-    const std::size_t first = kTested == Columns::Following ? row / lanes * lanes : 0;
-    const std::size_t last = kTested == Columns::Preceding ? row : search.columnCount;
-    for (std::size_t word = kOneWord ? 0 : first / kWordBoxes; word <= lastWord; ++word) {
-      const std::size_t begin = std::max(first, word * kWordBoxes);
-      const std::size_t end = kOneWord ? last : std::min(last, (word + 1) * kWordBoxes);
-      std::uint64_t bits = hitsOf(search.rows + 6 * row, columns, begin, end);
+    for (std::size_t word = 0; word <= lastWord; ++word) {
+      const std::size_t end = kOneWord ? search.columnCount : std::min(search.columnCount, (word + 1) * kWordBoxes);
+      std::uint64_t bits = hitsOf(search.rows + 6 * row, columns, word * kWordBoxes, end);
       if (word == lastWord) bits &= lastBits;
-      if (kOneWord || word == row / kWordBoxes) bits &= testedOfOwnWord<kTested>(row);
       const auto firstOfWord = static_cast<std::uint32_t>(word * kWordBoxes);
       const auto number = static_cast<std::uint32_t>(row);
       size += std::popcount(bits) > kManyBits
@@ -138,23 +126,15 @@ HWY_INLINE std::size_t searchFew(PlainSearch<T>& search, Pair* pairs) {
 }
 
 /// The same, for what is known of a search only now.
-template <class T, Columns kTested, bool kRowSecond>
+template <class T, bool kRowSecond>
 HWY_INLINE std::size_t searchFew(PlainSearch<T>& search, Pair* pairs) {
-  return search.columnCount <= kWordBoxes ? searchFew<T, kTested, kRowSecond, true>(search, pairs)
-                                          : searchFew<T, kTested, kRowSecond, false>(search, pairs);
+  return search.columnCount <= kWordBoxes ? searchFew<T, kRowSecond, true>(search, pairs)
+                                          : searchFew<T, kRowSecond, false>(search, pairs);
 }
 
 template <class T>
 std::size_t searchFew(PlainSearch<T>& search, Pair* pairs) {
-  switch (search.tested) {
-    case Columns::Following:
-      return searchFew<T, Columns::Following, false>(search, pairs);
-    case Columns::Preceding:
-      return searchFew<T, Columns::Preceding, true>(search, pairs);
-    default:
-      return search.rowSecond ? searchFew<T, Columns::All, true>(search, pairs)
-                              : searchFew<T, Columns::All, false>(search, pairs);
-  }
+  return search.rowSecond ? searchFew<T, true>(search, pairs) : searchFew<T, false>(search, pairs);
 }
 
 }  // namespace

@@ -43,8 +43,7 @@ struct PlainSearch {
   const T* columns = nullptr;
   std::size_t rowCount = 0;
   std::size_t columnCount = 0;  ///< From 1 to kMostFew.
-  Columns tested = Columns::All;
-  bool rowSecond = false;    ///< Whether the row is second in its pairs; of one set, if columns precede rows.
+  bool rowSecond = false;    ///< Whether the row is second in its pairs.
   std::size_t room = 0;      ///< For pairs: no fewer than there are columns.
   std::size_t rowBegin = 0;  ///< The next row to search; all rows before it have been.
 };

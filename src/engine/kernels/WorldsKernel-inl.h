@@ -109,17 +109,24 @@ class BoundsTest {
   hn::Vec<D> m_columns[kVectors][6];
 };
 
-/// Boxes of float64 as the nearest float32, and what is not certain as they are.
-class NearestTest : public BoundsTest<float, true> {
+/// Boxes of float64 as the nearest float32, and as they are what may be apart: of few pairs all, of many those hits that
+/// are not certain, for which each test takes longer.
+template <bool kMany>
+class NearestTest : public BoundsTest<float, kMany> {
  public:
   HWY_INLINE NearestTest(const WorldTile<float>& tile, const RowsTest& exact)
-      : BoundsTest<float, true>(tile), m_exact(exact) {}
+      : BoundsTest<float, kMany>(tile), m_exact(exact) {}
 
   /// Of the hits of a box with those of a word the ones that overlap it.
   [[nodiscard]] HWY_INLINE std::uint64_t exactOf(std::uint64_t bits, std::uint64_t certain, std::uint32_t box,
                                                  std::uint32_t firstOfWord) const {
     const std::uint64_t doubts = bits & ~certain;
     return HWY_LIKELY(doubts == 0) ? bits : bits ^ doubts ^ m_exact.hitsOf(doubts, box, firstOfWord);
+  }
+
+  /// Moves the pairs that overlap to the front; returns their number.
+  [[nodiscard]] HWY_INLINE std::size_t select(Pair* pairs, std::size_t count) const {
+    return m_exact.select(pairs, count);
   }
 
  private:
@@ -268,10 +275,9 @@ struct Partners {
 /// The hits of rows in [begin, end) as pairs, or counted only. With kUnasked pairs of a word that are written unasked.
 template <bool kPreceding, bool kCount, std::size_t kUnasked, class Test>
 HWY_INLINE void takeRows(const Test& test, const WorldHits& hits, const WorldPlaces places, std::size_t begin,
-                         const Partners partners, WorldSink& sink) {
+                         std::size_t end, const Partners partners, WorldSink& sink) {
   const std::uint64_t* words = hits.all.data() + begin % kWordBoxes * places.words;
   const std::uint64_t* certain = hits.certain.data() + begin % kWordBoxes * places.words;
-  const std::size_t end = (begin / kWordBoxes + 1) * kWordBoxes;
   std::uint64_t size = sink.size;
   for (std::size_t row = begin; row < end; ++row, words += places.words, certain += places.words) {
     const auto box = static_cast<std::uint32_t>(row - places.first);
@@ -280,7 +286,7 @@ HWY_INLINE void takeRows(const Test& test, const WorldHits& hits, const WorldPla
     for (std::size_t word = firstWord; word < endWord; ++word) {
       const auto firstOfWord = static_cast<std::uint32_t>(word * kWordBoxes - places.first);
       std::uint64_t bits = bitsOfRow<kPreceding>(words[word], word, row, places) & partners.of(row, word);
-      if constexpr (std::is_same_v<Test, NearestTest>) bits = test.exactOf(bits, certain[word], box, firstOfWord);
+      if constexpr (std::is_same_v<Test, NearestTest<true>>) bits = test.exactOf(bits, certain[word], box, firstOfWord);
       if constexpr (kCount) {
         size += static_cast<std::size_t>(std::popcount(bits));
       } else {
@@ -288,67 +294,83 @@ HWY_INLINE void takeRows(const Test& test, const WorldHits& hits, const WorldPla
       }
     }
   }
+  if constexpr (std::is_same_v<Test, NearestTest<false>>)
+    size = sink.size + test.select(sink.pairs + sink.size, size - sink.size);
   sink.size = size;
 }
 
-/// All pairs of one world. Of worlds of one word most rows have hits in it; of larger
-/// ones few words have more than two.
+/// The pairs of the rows of a word from the one of `begin` on. Of worlds of one word most rows have hits in it; of
+/// larger ones few words have more than two.
 template <bool kPreceding, bool kCount, class Test>
-HWY_INLINE void searchWorld(const Test& test, const WorldPlaces& places, const Partners& partners, WorldSink& sink) {
+HWY_INLINE void searchWord(const Test& test, const WorldPlaces& places, std::size_t begin, const Partners& partners,
+                           WorldSink& sink) {
   WorldHits hits;
   if (places.words == 1) {
     const WorldPlaces one{places.first, kWordBoxes, 1};
     testRows<kPreceding>(test, one, one.first, hits);
-    takeRows<kPreceding, kCount, 4>(test, hits, one, one.first, partners, sink);
+    takeRows<kPreceding, kCount, 4>(test, hits, one, one.first, kWordBoxes, partners, sink);
     return;
   }
-  for (std::size_t begin = places.first; begin < places.end; begin = (begin / kWordBoxes + 1) * kWordBoxes) {
-    testRows<kPreceding>(test, places, begin, hits);
-    takeRows<kPreceding, kCount, 2>(test, hits, places, begin, partners, sink);
+  testRows<kPreceding>(test, places, begin, hits);
+  const std::size_t end = WorldPlaces::endOfWord(begin);
+  for (std::size_t row = begin; row < end;) {
+    const std::size_t next = std::min(end, row + sink.rowsWithRoom(places.boxes()));
+    takeRows<kPreceding, kCount, 2>(test, hits, places, row, next, partners, sink);
+    row = next;
   }
 }
 
 /// The same, for what is known of all worlds only now.
 template <bool kPreceding, class Test>
-HWY_INLINE void searchSome(const Test& test, const WorldPlaces& places, const Partners& partners, WorldSink& sink) {
-  sink.countOnly ? searchWorld<kPreceding, true>(test, places, partners, sink)
-                 : searchWorld<kPreceding, false>(test, places, partners, sink);
+HWY_INLINE void searchSome(const Test& test, const WorldPlaces& places, std::size_t begin, const Partners& partners,
+                           WorldSink& sink) {
+  sink.countOnly ? searchWord<kPreceding, true>(test, places, begin, partners, sink)
+                 : searchWord<kPreceding, false>(test, places, begin, partners, sink);
 }
 
-/// Searches the boxes of a world as a test has them. Worlds without a filter whose pairs are wanted by their first
-/// boxes have a loop of their own.
+/// The same of boxes as a test has them. Worlds without a filter whose pairs are wanted by their first boxes have a
+/// loop of their own.
 template <bool kPreceding, bool kPlain, class Test>
-HWY_INLINE void searchRead(const Test& test, const WorldPlaces& places, WorldSink& sink) {
+HWY_INLINE void searchRead(const Test& test, const WorldPlaces& places, std::size_t begin, WorldSink& sink) {
   if constexpr (kPlain) {
-    searchWorld<kPreceding, false>(test, places, {places}, sink);
+    searchWord<kPreceding, false>(test, places, begin, {places}, sink);
   } else {
-    searchSome<kPreceding>(test, places, {places, sink.allowed}, sink);
+    searchSome<kPreceding>(test, places, begin, {places, sink.allowed}, sink);
   }
 }
 
-template <bool kPreceding, bool kPlain>
-HWY_INLINE void searchExactly(const WorldsRun<float>& run, std::size_t first, const WorldPlaces& places,
-                              WorldSink& sink) {
-  alignas(64) WorldTile<float> tile;
-  readWorld(run, first, places, tile);
-  searchRead<kPreceding, kPlain>(BoundsTest<float>(tile), places, sink);
+/// The same with a test of something. A function of its own: what is inlined into the loop over worlds compilers keep in
+/// memory, not in registers.
+template <class Test, bool kPreceding, bool kPlain, class... Of>
+HWY_NOINLINE void searchBy(const WorldPlaces& places, std::size_t begin, WorldSink& sink, const Of&... of) {
+  searchRead<kPreceding, kPlain>(Test(of...), places, begin, sink);
 }
 
-/// The same of boxes of float64 as the nearest float32, and in double what may be apart: of few pairs all, of many
-/// those that are not certain, for which each test takes longer. A function of its own: what is inlined into the loop
-/// over worlds compilers keep in memory, not in registers.
-template <bool kPreceding, bool kPlain, bool kMany>
-HWY_NOINLINE void searchNearest(const WorldsRun<double>& run, std::size_t first, const WorldPlaces& places,
-                                WorldSink& sink) {
+/// All pairs of one world, of boxes as they are.
+template <bool kPreceding, bool kPlain, class T>
+HWY_INLINE void searchExactly(const WorldsRun<T>& run, std::size_t first, const WorldPlaces& places, WorldSink& sink) {
+  alignas(64) WorldTile<T> tile;
+  readWorld(run, first, places, tile);
+  if (places.words == 1) {
+    searchRead<kPreceding, kPlain>(BoundsTest<T>(tile), {places.first, kWordBoxes, 1}, places.first, sink);
+    return;
+  }
+  for (std::size_t begin = places.first; begin < places.end; begin = WorldPlaces::endOfWord(begin))
+    searchBy<BoundsTest<T>, kPreceding, kPlain>(places, begin, sink, tile);
+}
+
+/// The same of boxes of float64 as the nearest float32.
+template <bool kPreceding, bool kPlain>
+HWY_INLINE void searchNearest(WorldsRun<double>& run, std::size_t first, const WorldPlaces& places, WorldSink& sink) {
   alignas(64) WorldTile<float> tile;
   readWorld(run, first, places, tile);
-  const RowsTest exact(run.boxes.part(first, places.end - places.first));
-  if constexpr (kMany) {
-    searchRead<kPreceding, kPlain>(NearestTest(tile, exact), places, sink);
-  } else {
-    const std::uint64_t before = sink.size;
-    searchRead<kPreceding, kPlain>(BoundsTest<float>(tile), places, sink);
-    sink.size = before + exact.select(sink.pairs + before, sink.size - before);
+  const RowsTest exact(run.boxes.part(first, places.boxes()));
+  for (std::size_t begin = places.first; begin < places.end; begin = WorldPlaces::endOfWord(begin)) {
+    const std::uint64_t before = sink.found();
+    run.hadMany || sink.countOnly ? searchBy<NearestTest<true>, kPreceding, kPlain>(places, begin, sink, tile, exact)
+                                  : searchBy<NearestTest<false>, kPreceding, kPlain>(places, begin, sink, tile, exact);
+    // A pair tested alone takes as long as so many boxes together.
+    run.hadMany = (sink.found() - before) * kFanOut > places.pairsFrom(begin, kPreceding);
   }
 }
 
@@ -359,16 +381,12 @@ HWY_INLINE void searchRun(WorldsRun<T>& run) {
     const std::size_t first = run.worlds->begin(run.world);
     const std::size_t boxes = run.worlds->begin(run.world + 1) - first;
     if (boxes > run.mostBoxes || !sink.takes(boxes)) break;
-    const WorldPlaces places = WorldPlaces::of(boxes);
     prefetchAfter(run, first + boxes, boxes);
-    if constexpr (std::is_same_v<T, float>) {
-      searchExactly<kPreceding, kPlain>(run, first, places, sink);
+    // Without vectors float32 takes no less time than float64.
+    if constexpr (std::is_same_v<T, float> || HWY_TARGET == HWY_SCALAR) {
+      searchExactly<kPreceding, kPlain>(run, first, WorldPlaces::of(boxes), sink);
     } else {
-      const std::uint64_t before = sink.size;
-      run.hadMany || sink.countOnly ? searchNearest<kPreceding, kPlain, true>(run, first, places, sink)
-                                    : searchNearest<kPreceding, kPlain, false>(run, first, places, sink);
-      // A pair tested alone takes as long as so many boxes together.
-      run.hadMany = (sink.size - before) * kFanOut > WorldSink::pairsOf(boxes);
+      searchNearest<kPreceding, kPlain>(run, first, WorldPlaces::of(boxes), sink);
     }
     run.pairEnd[run.world] = sink.size;
     run.boxTests += WorldSink::pairsOf(boxes);
@@ -391,10 +409,12 @@ template <bool kPreceding>
 HWY_INLINE void searchWide(const WideWorld& world, WorldSink& sink) {
   const WorldPlaces places = WorldPlaces::of(world.boxes);
   const Partners partners{places, sink.allowed, world.alive.data()};
-  if (!world.hasMargins && world.distance == 0.0) {
-    searchSome<kPreceding>(BoundsTest<double>(world.tile), places, partners, sink);
-  } else {
-    searchSome<kPreceding>(WideTest<kPreceding>(world), places, partners, sink);
+  for (std::size_t begin = places.first; begin < places.end; begin = WorldPlaces::endOfWord(begin)) {
+    if (!world.hasMargins && world.distance == 0.0) {
+      searchSome<kPreceding>(BoundsTest<double>(world.tile), places, begin, partners, sink);
+    } else {
+      searchSome<kPreceding>(WideTest<kPreceding>(world), places, begin, partners, sink);
+    }
   }
 }
 

@@ -131,18 +131,20 @@ HWY_INLINE void readCorners(const T* min, const T* max, std::size_t stride, Worl
   }
 }
 
-/// The same for a world's first vector, of which the places before `skipped` lie before all boxes in memory.
+/// The same for the first world's first vector, of which so many places lie before all boxes in memory; the first box is
+/// put there.
 template <class T, class Lane>
-HWY_INLINE void readFirstCorners(const WorldsRun<T>& run, std::size_t skipped, std::size_t boxes, WorldTile<Lane>& tile,
-                                 std::size_t at) {
-  std::array<T, 6 * kFanOut> copy{};
+HWY_INLINE void readFirstCorners(const WorldsRun<T>& run, std::size_t skipped, WorldTile<Lane>& tile, std::size_t at) {
+  const std::size_t stride = run.boxes.stride;
+  std::array<T, 6 * kColumnsAtOnce> copy;
   T* const min = copy.data();
-  T* const max = run.boxes.stride == 3 ? min + 3 * kFanOut : min + 3;
-  for (std::size_t i = 0; i < boxes; ++i) {
-    std::copy_n(run.boxes.min + i * run.boxes.stride, 3, min + (skipped + i) * run.boxes.stride);
-    std::copy_n(run.boxes.max + i * run.boxes.stride, 3, max + (skipped + i) * run.boxes.stride);
+  T* const max = stride == 3 ? min + 3 * kColumnsAtOnce : min + 3;
+  for (std::size_t i = 0; i < hn::Lanes(WorldTag<Lane>()); ++i) {
+    const std::size_t box = i < skipped ? 0 : i - skipped;
+    std::copy_n(run.boxes.min + box * stride, 3, min + i * stride);
+    std::copy_n(run.boxes.max + box * stride, 3, max + i * stride);
   }
-  readCorners(min, max, run.boxes.stride, tile, at);
+  readCorners(min, max, stride, tile, at);
 }
 
 /// A world's boxes; what is in front of them in memory comes along.
@@ -154,7 +156,7 @@ HWY_INLINE void readWorld(const WorldsRun<T>& run, std::size_t firstBox, const W
   const std::size_t skipped = places.first - at;
   if (firstBox < skipped) {
     // Boxes that precede the world are in the vector too, but not as many as it has room for.
-    readFirstCorners(run, skipped - firstBox, firstBox + lanes - skipped, tile, at);
+    readFirstCorners(run, skipped - firstBox, tile, at);
     at += lanes;
   }
   for (; at < places.end; at += lanes) {

@@ -4,7 +4,9 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
+#include "allpairs/FunctionRef.h"
 #include "allpairs/Pair.h"
 #include "allpairs/Worlds.h"
 #include "kernels/Lanes.h"
@@ -32,6 +34,21 @@ struct WorldPlaces {
     const std::size_t words = (boxes + kWordBoxes - 1) / kWordBoxes;
     return {words * kWordBoxes - boxes, words * kWordBoxes, words};
   }
+
+  [[nodiscard]] std::size_t boxes() const noexcept { return end - first; }
+
+  /// Where the word of a place ends.
+  [[nodiscard]] static std::size_t endOfWord(std::size_t place) noexcept {
+    return (place / kWordBoxes + 1) * kWordBoxes;
+  }
+
+  /// How many pairs there can be of the boxes from one of `begin` up to the end of its word, each with those that
+  /// follow, or precede it.
+  [[nodiscard]] std::size_t pairsFrom(std::size_t begin, bool preceding) const noexcept {
+    const std::size_t rows = endOfWord(begin) - begin;
+    const std::size_t columns = preceding ? endOfWord(begin) - first : end - begin;
+    return rows * columns - rows * (rows + 1) / 2;
+  }
 };
 
 /// The boxes of a world, a row for each bound, by place.
@@ -47,7 +64,7 @@ struct WorldSink {
 
   /// The pairs that there must be room for to search a world: kernels write the first few of a word whether they are
   /// there or not.
-  [[nodiscard]] static std::size_t roomFor(std::size_t boxes) noexcept { return pairsOf(boxes) + kVectorSlack; }
+  [[nodiscard]] static constexpr std::size_t roomFor(std::size_t boxes) noexcept { return pairsOf(boxes) + kVectorSlack; }
 
   Pair* pairs = nullptr;
   std::size_t capacity = 0;  ///< With the slack.
@@ -66,7 +83,28 @@ struct WorldSink {
   /// If set, the memory of `pairs`, which grows as needed.
   Buffer<Pair>* growing = nullptr;
 
-  [[nodiscard]] bool takes(std::size_t boxes) const noexcept { return countOnly || size + roomFor(boxes) <= capacity; }
+  /// If set, is given the pairs of a world where there may be no room for more; the last ones stay. A part and the slack
+  /// are enough room then.
+  const FunctionRef<void(std::span<const Pair>)>* emit = nullptr;
+  std::uint64_t emitted = 0;
+
+  /// Of all searches.
+  [[nodiscard]] std::uint64_t found() const noexcept { return emitted + size; }
+
+  /// How many boxes there is room for the pairs of, each with all of so many.
+  std::size_t rowsWithRoom(std::size_t boxes) {
+    if (emit == nullptr) return kWordBoxes;
+    const std::size_t rows = (capacity - kVectorSlack - size) / boxes;
+    if (rows >= kFanOut / 2) return rows;
+    (*emit)({pairs, size});
+    emitted += size;
+    size = 0;
+    return (capacity - kVectorSlack) / boxes;
+  }
+
+  [[nodiscard]] bool takes(std::size_t boxes) const noexcept {
+    return countOnly || emit != nullptr || size + roomFor(boxes) <= capacity;
+  }
 
   /// Makes room for so many more pairs; returns whether there is.
   bool makeRoom(std::size_t more) {

@@ -7,6 +7,7 @@
 #include <memory_resource>
 
 #include "allpairs/StopFlag.h"
+#include "allpairs/Worlds.h"
 #include "input/BoxRuns.h"
 #include "input/Parts.h"
 #include "input/Readers.h"
@@ -19,8 +20,8 @@
 namespace allpairs::engine {
 namespace {
 
-/// Up to so many pairs of boxes, a plain loop over them takes less time than arranging boxes for vectors
-/// (docs/decisions/0009, few_benchmark).
+/// Up to so many pairs of two sets, and twice as many of one, a plain loop over them takes less time than arranging boxes
+/// for vectors (docs/decisions/0009, few_benchmark).
 constexpr std::size_t kTestedPairs = 24;
 
 /// Room for the hits that are buffered, more than those of one box and so few that they fit on the stack, and for what
@@ -31,14 +32,35 @@ constexpr std::size_t kHitStride = 2 * LaneTile::kCapacity + kVectorSlack;
 constexpr std::size_t kSinkBytes =
     sizeof(std::uint32_t) * (SinkOptions::kHitOffset + 3 * kHitStride) + sizeof(Pair) * kHitStride;
 
-/// All pairs, by row; returns their number.
+using TakePairs = FunctionRef<void(std::span<const Pair>)>;
+
+/// Whether boxes are compared as they are: only their bounds matter, which lie one after the other; of two sets, as rows
+/// of six.
+template <class T>
+bool arePlain(const Sets& sets) {
+  return sets.one ? areRun<T>(sets.first) : areRows<T>(sets.first) && areRows<T>(sets.second);
+}
+
+/// Tests the pairs one after the other; returns the number of hits.
+template <class T>
+std::size_t testAll(const BoxRun<T>& boxes, bool bySecond, Pair* pairs) {
+  std::size_t found = 0;
+  for (std::uint32_t i = 0; i < boxes.size; ++i) {
+    for (std::uint32_t j = bySecond ? 0 : i + 1; j < (bySecond ? i : boxes.size); ++j) {
+      pairs[found] = bySecond ? Pair{j, i} : Pair{i, j};
+      const BoxRun<T> a = boxes.part(i, 1);
+      const BoxRun<T> b = boxes.part(j, 1);
+      found += static_cast<std::size_t>(areHit(a.min, a.max, b.min, b.max));
+    }
+  }
+  return found;
+}
+
 template <class T>
 std::size_t testAll(PlainSearch<T>& search, Pair* pairs) {
   std::size_t found = 0;
   for (std::uint32_t i = 0; i < search.rowCount; ++i) {
-    const std::uint32_t begin = search.tested == Columns::Following ? i + 1 : 0;
-    const std::size_t end = search.tested == Columns::Preceding ? i : search.columnCount;
-    for (std::uint32_t j = begin; j < end; ++j) {
+    for (std::uint32_t j = 0; j < search.columnCount; ++j) {
       pairs[found] = search.rowSecond ? Pair{j, i} : Pair{i, j};
       found += static_cast<std::size_t>(areHit(search.rows + 6 * std::size_t{i}, search.columns + 6 * std::size_t{j}));
     }
@@ -47,62 +69,81 @@ std::size_t testAll(PlainSearch<T>& search, Pair* pairs) {
   return found;
 }
 
-/// Whether boxes are compared as they are: only their bounds matter, which are rows.
-bool arePlain(const Sets& sets, const OverlapOptions& options) {
-  return onlyBoundsMatter(sets, options) && ((areRows<float>(sets.first) && areRows<float>(sets.second)) ||
-                                             (areRows<double>(sets.first) && areRows<double>(sets.second)));
-}
-
-/// The search of two sets of rows, or of one twice, by the index that pairs are ordered by. All boxes against a single
-/// one are in its order too if that is the row, which takes fewer tests of a vector.
+/// The search of two sets of rows, by the index that pairs are ordered by. All boxes against a single one are in its
+/// order too if that is the row, which takes fewer tests of a vector.
 template <class T>
 PlainSearch<T> plainSearch(const Sets& sets, Order order) {
   const T* const first = cornersOf<T>(sets.first).min.data;
   const T* const second = cornersOf<T>(sets.second).min.data;
   const std::size_t firstSize = sets.first.size();
   const std::size_t secondSize = sets.second.size();
-  const bool bySecond = order == Order::BySecond;
-  if (sets.one) {
-    const Columns tested = bySecond ? Columns::Preceding : Columns::Following;
-    return {first, first, firstSize, firstSize, tested, bySecond};
-  }
-  if (secondSize == 1 || (bySecond && firstSize != 1))
-    return {second, first, secondSize, firstSize, Columns::All, true};
-  return {first, second, firstSize, secondSize, Columns::All, false};
+  if (secondSize == 1 || (order == Order::BySecond && firstSize != 1))
+    return {second, first, secondSize, firstSize, true};
+  return {first, second, firstSize, secondSize, false};
 }
 
-/// Finds the pairs of the rows that are left, or of some of them if there are many; without kernels, tests one pair
-/// after the other.
+/// The pairs of one set, as those of a world.
 template <class T>
-std::size_t searchSome(PlainSearch<T>& search, const Kernels* kernels, Pair* pairs) {
-  return kernels == nullptr ? testAll(search, pairs) : kernels->plain<T>().searchFew(search, pairs);
+void findAmong(const Sets& sets, const Kernels& kernels, Order order, TakePairs take) {
+  PairsOnStack<kPartSize + kVectorSlack> pairs;
+  static_assert(WorldSink::pairsOf(kWordBoxes) <= kPartSize && kMostFew <= kMostInWorld);
+  const std::array<std::uint64_t, 2> begin{0, sets.first.size()};
+  const Worlds world(sets.first, begin);
+  std::uint64_t pairEnd = 0;
+  WorldsRun<T> run;
+  run.boxes = runOf<T>(sets.first);
+  run.worlds = &world;
+  run.end = 1;
+  run.sink = {pairs.data(), kPartSize + kVectorSlack};
+  run.sink.bySecond = order == Order::BySecond;
+  run.sink.emit = &take;
+  run.hadMany = true;
+  run.pairEnd = &pairEnd;
+  kernels.plain<T>().searchWorlds(run);
+  take({pairs.data(), run.sink.size});
 }
 
 template <class T>
-OverlapStatistics findPlain(const Sets& sets, const OverlapOptions& options, Order order,
-                            FunctionRef<void(std::span<const Pair>)> take) {
-  static_assert(kPartSize >= kMostFew && kPartSize >= kTestedPairs);
+void findBetween(const Sets& sets, const Kernels& kernels, Order order, TakePairs take) {
+  static_assert(kPartSize >= kMostFew);
   PairsOnStack<kPartSize + kVectorSlack> pairs;
   PlainSearch<T> search = plainSearch<T>(sets, order);
   search.room = kPartSize;
-  const std::size_t most = pairsOf(sets);
-  // An instruction set that is asked for has to be there, and is used.
-  const bool isTested = most <= kTestedPairs && options.instructionSet.empty();
-  const Kernels* const kernels = isTested ? nullptr : &chooseKernels(options);
+  while (search.columnCount != 0 && search.rowBegin < search.rowCount)
+    take({pairs.data(), kernels.plain<T>().searchFew(search, pairs.data())});
+}
+
+template <class T>
+void testPlain(const Sets& sets, Order order, TakePairs take) {
+  PairsOnStack<2 * kTestedPairs> pairs;
+  const bool bySecond = order == Order::BySecond;
+  PlainSearch<T> search = plainSearch<T>(sets, order);
+  take(
+      {pairs.data(), sets.one ? testAll(runOf<T>(sets.first), bySecond, pairs.data()) : testAll(search, pairs.data())});
+}
+
+template <class T>
+OverlapStatistics findPlain(const Sets& sets, const OverlapOptions& options, Order order, TakePairs take) {
   OverlapStatistics statistics;
-  statistics.boxTests = most;
-  while (most != 0 && search.rowBegin < search.rowCount) {
+  statistics.boxTests = pairsOf(sets);
+  const auto taken = [&](std::span<const Pair> pairs) {
     checkStop(options.stop);
-    const std::size_t found = searchSome(search, kernels, pairs.data());
-    statistics.pairs += found;
+    statistics.pairs += pairs.size();
     checkLimit(options.maxPairs, statistics.pairs);
-    if (found != 0) take({pairs.data(), found});
+    if (!pairs.empty()) take(pairs);
+  };
+  checkStop(options.stop);
+  // An instruction set that is asked for has to be there, and is used.
+  if (statistics.boxTests <= (sets.one ? 2 : 1) * kTestedPairs && options.instructionSet.empty()) {
+    testPlain<T>(sets, order, taken);
+  } else {
+    const Kernels& kernels = chooseKernels(options);
+    sets.one ? findAmong<T>(sets, kernels, order, taken) : findBetween<T>(sets, kernels, order, taken);
   }
   return statistics;
 }
 
-OverlapStatistics findInTiles(const Sets& sets, const OverlapOptions& options, Order order,
-                              FunctionRef<void(std::span<const Pair>)> take) {
+OverlapStatistics findInTiles(const Sets& sets, const OverlapOptions& options, Order order, TakePairs take) {
   checkOptions(sets, options);
   checkStop(options.stop);
   const Kernels& kernels = chooseKernels(options);
@@ -155,9 +196,10 @@ bool areFew(const Sets& sets, const OverlapOptions& options) {
 OverlapStatistics findFew(const Sets& sets, const OverlapOptions& options, Order order,
                           FunctionRef<void(std::span<const Pair>)> take) {
   if (areFewBesideMany(sets, options)) return findFewBesideMany(sets, options, order, take);
-  if (!arePlain(sets, options)) return findInTiles(sets, options, order, take);
-  return sets.first.isFloat64() ? findPlain<double>(sets, options, order, take)
-                                : findPlain<float>(sets, options, order, take);
+  const bool isPlain = onlyBoundsMatter(sets, options);
+  if (isPlain && arePlain<float>(sets)) return findPlain<float>(sets, options, order, take);
+  if (isPlain && arePlain<double>(sets)) return findPlain<double>(sets, options, order, take);
+  return findInTiles(sets, options, order, take);
 }
 
 }  // namespace allpairs::engine
