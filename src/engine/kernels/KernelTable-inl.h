@@ -37,6 +37,7 @@ constexpr double kTestsForPair = HWY_TARGET <= HWY_AVX2 ? 10.0 : 5.0;
 const Kernels* kernelTable() {
   static const Kernels table{hwy::TargetName(HWY_TARGET),
                              kFlatBoxes,
+                             kFlatBoxes + (HWY_TARGET <= HWY_AVX2 ? kFlatBoxes / 4 : 0),
                              kWideBoxes,
                              kTestsForPair,
                              &searchFlat,

@@ -43,9 +43,9 @@ struct PlainSearch {
   const T* columns = nullptr;
   std::size_t rowCount = 0;
   std::size_t columnCount = 0;  ///< From 1 to kMostFew.
-  bool rowSecond = false;    ///< Whether the row is second in its pairs.
-  std::size_t room = 0;      ///< For pairs: no fewer than there are columns.
-  std::size_t rowBegin = 0;  ///< The next row to search; all rows before it have been.
+  bool rowSecond = false;       ///< Whether the row is second in its pairs.
+  std::size_t room = 0;         ///< For pairs: no fewer than there are columns.
+  std::size_t rowBegin = 0;     ///< The next row to search; all rows before it have been.
 };
 
 /// A box with its id, at one place in memory.
@@ -227,6 +227,9 @@ struct Kernels {
 
   /// Up to this many boxes of one set, testing all pairs takes less time than a hierarchy (docs/decisions/0009).
   std::size_t flatBoxes;
+
+  /// The same of boxes that are compared as they are.
+  std::size_t plainBoxes;
 
   /// Up to this many boxes of one world, testing all pairs in double takes less time than rounding boxes to lanes.
   std::size_t wideBoxes;

@@ -190,7 +190,9 @@ bool areFew(const Sets& sets, const OverlapOptions& options) {
   if (size <= kWordBoxes) return true;  // With any instruction set.
   const Kernels* const kernels = findKernels(options.instructionSet);
   if (kernels == nullptr || options.strategy == Strategy::Exhaustive) return true;
-  return sets.first.size() * sets.second.size() <= kernels->flatBoxes * kernels->flatBoxes;
+  const bool isPlain = sets.one && onlyBoundsMatter(sets, options) && (arePlain<float>(sets) || arePlain<double>(sets));
+  const std::size_t most = isPlain ? kernels->plainBoxes : kernels->flatBoxes;
+  return sets.first.size() * sets.second.size() <= most * most;
 }
 
 OverlapStatistics findFew(const Sets& sets, const OverlapOptions& options, Order order,
