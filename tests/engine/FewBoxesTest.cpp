@@ -12,6 +12,7 @@
 
 #include "allpairs/Error.h"
 #include "allpairs/Overlaps.h"
+#include "allpairs/StopFlag.h"
 #include "support/Boxes.h"
 #include "support/Numbers.h"
 #include "support/Oracle.h"
@@ -163,7 +164,7 @@ TYPED_TEST(FewBoxes, OfTwoSetsThatAllOverlapFitTheResult) {
 
 /// Around the most that are compared as they lie in memory, sparse and dense ones.
 TYPED_TEST(FewBoxes, OfSeveralWordsGiveTheOraclesPairsWithEveryInstructionSet) {
-  for (const std::size_t n : {129U, 191U, 192U, 193U, 256U, 257U, 383U, 384U, 385U}) {
+  for (const std::size_t n : {129U, 191U, 192U, 193U, 256U, 257U, 320U, 321U, 383U, 384U, 385U}) {
     auto boxes = someBoxes<TypeParam>(n, static_cast<unsigned>(n));
     for (std::size_t i = 0; i < n / 2; ++i) {  // Half of them overlap many.
       for (std::size_t axis = 0; axis < 3; ++axis) boxes[i].max[axis] += n % 2 == 0 ? 0 : 2;
@@ -182,6 +183,42 @@ TYPED_TEST(FewBoxes, OfSeveralWordsGiveTheOraclesPairsWithEveryInstructionSet) {
       }
     }
   }
+}
+
+/// More than are rounded to lanes, and as many as are compared as they lie in memory.
+TYPED_TEST(FewBoxes, GiveTheSameUnorderedListWhateverTheLayout) {
+  for (const std::size_t n : {250U, 257U, 300U, 320U, 321U}) {
+    const auto boxes = someBoxes<TypeParam>(n, static_cast<unsigned>(n));
+    std::vector<TypeParam> rowsOfSeven;
+    for (const auto& box : boxes) {
+      rowsOfSeven.insert(rowsOfSeven.end(), box.min.begin(), box.min.end());
+      rowsOfSeven.insert(rowsOfSeven.end(), box.max.begin(), box.max.end());
+      rowsOfSeven.push_back(0);
+    }
+    const CornerView<TypeParam> min{rowsOfSeven.data(), 7, 1};
+    const CornerView<TypeParam> max{rowsOfSeven.data() + 3, 7, 1};
+    const BoxView apart = BoxView::fromStrided(n, min, max);
+    OverlapSearch search({.order = Order::Unordered});
+    const std::vector<Pair> expected = test::toVector(search.find(boxes));
+    EXPECT_EQ(test::toVector(search.find(apart)), expected) << n;
+    EXPECT_EQ(overlaps(apart, {.order = Order::Unordered}), expected) << n;
+  }
+}
+
+/// Boxes that all overlap have several parts of pairs, and the flag is looked at before each.
+TYPED_TEST(FewBoxes, AreStoppedBetweenPartsOfTheirPairs) {
+  const std::vector<BasicBox<TypeParam>> boxes(250, {{0, 0, 0}, {1, 1, 1}});
+  int asked = 0;
+  int answered = 0;
+  const auto ask = [&] { return ++asked > answered; };
+  const StopFlag stop(ask);
+  const std::size_t parts = boxes.size() * (boxes.size() - 1) / 2 / 4096 + 1;
+  for (; answered < static_cast<int>(parts); ++answered) {
+    asked = 0;
+    EXPECT_THROW((void)overlaps(boxes, {.stop = &stop}), Stopped) << answered;
+  }
+  answered = 1000;
+  EXPECT_EQ(overlaps(boxes, {.stop = &stop}), test::oracle(inDouble(boxes)));
 }
 
 /// Bounds that float32 cannot tell apart.

@@ -15,6 +15,7 @@
 #include <string_view>
 #include <vector>
 
+#include "allpairs/Overlaps.h"
 #include "allpairs/World.h"
 #include "allpairs/Worlds.h"
 #include "support/Boxes.h"
@@ -88,7 +89,7 @@ struct HairsApart {
     std::mt19937 generator(seed);
     for (std::size_t world = 0; world < 96; ++world) {
       static constexpr double kScales[] = {1.0, 0.1, 1e300, 3e38, 1e-40, 1e-46, 1e-310};
-      static constexpr std::size_t kSizes[] = {1, 2, 5, 20, 33, 64, 65, 130, 190, 440};
+      static constexpr std::size_t kSizes[] = {1, 2, 5, 20, 33, 64, 65, 130, 190, 250, 320, 440};
       const double scale = kScales[world / 3 % std::size(kScales)];
       const bool isOnGrid = world % 40 < 20;  // Long rows of worlds with hairs, and without.
       const auto bound = [&](double value) {
@@ -137,6 +138,41 @@ TEST_P(WorldsApart, ByLessThanFloat32TellsGiveTheOraclesPairs) {
   }
 }
 
+/// Few boxes of one set are searched like a world, and their pairs given out part by part.
+TEST_P(WorldsApart, ByLessThanFloat32TellsGiveTheOraclesPairsAlone) {
+  const HairsApart scene(static_cast<unsigned>(GetParam().back()) + 2);
+  for (std::size_t k = 0; k + 1 < scene.begin.size(); ++k) {
+    const std::vector<Box> boxes = scene.world(k);
+    std::vector<double> min;
+    std::vector<double> max;
+    for (const Box& box : boxes) {
+      min.insert(min.end(), box.min.begin(), box.min.end());
+      max.insert(max.end(), box.max.begin(), box.max.end());
+    }
+    const std::vector<Pair> expected = test::oracle(boxes);
+    for (const Order order : {Order::ByFirst, Order::BySecond}) {
+      const OverlapOptions options{.order = order, .instructionSet = GetParam()};
+      ASSERT_THAT(overlaps(BoxView(boxes), options), ElementsAreArray(test::inOrder(expected, order))) << k;
+      ASSERT_THAT(overlaps(BoxView::fromCorners(min, max), options), ElementsAreArray(test::inOrder(expected, order)))
+          << k;
+    }
+  }
+}
+
+/// An only world of few boxes, on either side of how many are searched as a small one.
+TEST_P(WorldsApart, ByLessThanFloat32TellsGiveTheOraclesPairsInAnOnlyWorld) {
+  const HairsApart scene(static_cast<unsigned>(GetParam().back()) + 3);
+  for (const std::size_t size : {128U, 129U, 192U, 193U, 320U}) {
+    World world({.instructionSet = GetParam()});
+    const std::vector<Box> added(scene.boxes.begin(), scene.boxes.begin() + static_cast<std::ptrdiff_t>(size));
+    const std::vector<BoxId> ids = world.add(BoxView(added));
+    ASSERT_THAT(world.step().pairs, ElementsAreArray(test::oracle(added))) << size;
+    const std::vector<Box> moved(scene.boxes.end() - static_cast<std::ptrdiff_t>(size), scene.boxes.end());
+    world.move(ids, BoxView(moved));
+    ASSERT_THAT(world.step().pairs, ElementsAreArray(test::oracle(moved))) << size;
+  }
+}
+
 TEST_P(WorldsApart, ByLessThanFloat32TellsGiveTheOraclesPairsInEachStep) {
   for (const Order order : {Order::ByFirst, Order::BySecond}) {
     World world({.order = order, .instructionSet = GetParam()});
@@ -175,6 +211,19 @@ TEST_P(WorldsApart, ByLessThanFloat32TellsGiveTheSameWhateverTheRounding) {
     ASSERT_EQ(std::fesetround(FE_TONEAREST), 0);
     EXPECT_THAT(pairs, ElementsAreArray(expected)) << direction;
   }
+}
+
+/// A program may trap these exceptions of the processor.
+TEST_P(WorldsApart, ByMoreThanFloat32HasSignalNoOverflow) {
+  const std::vector<Box> boxes(70, {{-1e300, -3e38, -test::kInfinity}, {1e300, 1e308, 1e39}});
+  const std::vector<std::uint64_t> begin{0, 5, 70};
+  WorldsSearch search({.instructionSet = GetParam()});
+  std::feclearexcept(FE_ALL_EXCEPT);
+  const std::size_t found = search.find(Worlds(BoxView(boxes), begin)).pairs.size();
+  const std::size_t alone = overlaps(BoxView(boxes), {.instructionSet = GetParam()}).size();
+  EXPECT_EQ(std::fetestexcept(FE_OVERFLOW | FE_DIVBYZERO), 0);
+  EXPECT_EQ(found, 10U + 65U * 64U / 2);
+  EXPECT_EQ(alone, 70U * 69U / 2);
 }
 
 /// They are read as they are; other boxes with the scalar kernels.

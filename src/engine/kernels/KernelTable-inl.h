@@ -25,7 +25,10 @@ namespace {  // Each file that compiles the kernels has its own.
 
 /// Measured by few_benchmark (docs/decisions/0009): wide vectors test more pairs.
 constexpr std::size_t kFlatBoxes = HWY_TARGET == HWY_SCALAR ? 72 : HWY_TARGET <= HWY_AVX2 ? 256 : 192;
-static_assert(kFlatBoxes <= kMostFew);
+
+/// The same of boxes as they lie in memory, for which only wide vectors make up.
+constexpr std::size_t kPlainBoxes = kFlatBoxes + (HWY_TARGET <= HWY_AVX2 ? kFlatBoxes / 4 : 0);
+static_assert(kPlainBoxes <= kMostFew);
 
 /// Measured by worlds_benchmark with AVX-512, AVX2 and SSE4: vectors of AVX-512 test sixteen lanes of float32 at once,
 /// which makes up for rounding to them sooner.
@@ -37,7 +40,7 @@ constexpr double kTestsForPair = HWY_TARGET <= HWY_AVX2 ? 10.0 : 5.0;
 const Kernels* kernelTable() {
   static const Kernels table{hwy::TargetName(HWY_TARGET),
                              kFlatBoxes,
-                             kFlatBoxes + (HWY_TARGET <= HWY_AVX2 ? kFlatBoxes / 4 : 0),
+                             kPlainBoxes,
                              kWideBoxes,
                              kTestsForPair,
                              &searchFlat,

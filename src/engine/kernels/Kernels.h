@@ -228,7 +228,7 @@ struct Kernels {
   /// Up to this many boxes of one set, testing all pairs takes less time than a hierarchy (docs/decisions/0009).
   std::size_t flatBoxes;
 
-  /// The same of boxes that are compared as they are.
+  /// The same of boxes that are compared as they lie in memory, in order.
   std::size_t plainBoxes;
 
   /// Up to this many boxes of one world, testing all pairs in double takes less time than rounding boxes to lanes.

@@ -9,6 +9,7 @@
 #define ALLPAIRS_NEAREST_KERNEL_INL_H
 #endif
 
+#include <algorithm>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -32,14 +33,12 @@ class RowsTest {
     const double* const otherMin = m_boxes.min + m_boxes.stride * pair.second;
     const double* const otherMax = m_boxes.max + m_boxes.stride * pair.second;
     const hn::CappedTag<double, 4> d;
-    if constexpr (hn::MaxLanes(d) < 4) {
-      return engine::areHit(min, max, otherMin, otherMax);
-    } else {
-      const auto axes = hn::FirstN(d, 3);
-      const auto from = hn::Max(hn::MaskedLoad(axes, d, min), hn::MaskedLoad(axes, d, otherMin));
-      const auto to = hn::Min(hn::MaskedLoad(axes, d, max), hn::MaskedLoad(axes, d, otherMax));
-      return hn::AllTrue(d, hn::Le(from, to));
-    }
+    // A vector has a value more than a corner, which after the last box may lie outside the caller's memory.
+    const bool isLast = std::max(pair.first, pair.second) + std::size_t{1} == m_boxes.size;
+    if (hn::MaxLanes(d) < 4 || HWY_UNLIKELY(isLast)) return engine::areHit(min, max, otherMin, otherMax);
+    const auto from = hn::Max(hn::LoadU(d, min), hn::LoadU(d, otherMin));
+    const auto to = hn::Min(hn::LoadU(d, max), hn::LoadU(d, otherMax));
+    return (allBitsOf(d, hn::Le(from, to)) & 7U) == 7U;
   }
 
   /// Moves the pairs that are hits to the front; returns their number.

@@ -109,8 +109,8 @@ class BoundsTest {
   hn::Vec<D> m_columns[kVectors][6];
 };
 
-/// Boxes of float64 as the nearest float32, and as they are what may be apart: of few pairs all, of many those hits that
-/// are not certain, for which each test takes longer.
+/// Boxes of float64 as the nearest float32, whose hits are tested in double: all of them where pairs are few; where they
+/// are many only those that are not certain, and telling these makes each test longer.
 template <bool kMany>
 class NearestTest : public BoundsTest<float, kMany> {
  public:
@@ -294,6 +294,7 @@ HWY_INLINE void takeRows(const Test& test, const WorldHits& hits, const WorldPla
       }
     }
   }
+  static_assert(!kCount || !std::is_same_v<Test, NearestTest<false>>);
   if constexpr (std::is_same_v<Test, NearestTest<false>>)
     size = sink.size + test.select(sink.pairs + sink.size, size - sink.size);
   sink.size = size;
@@ -314,7 +315,7 @@ HWY_INLINE void searchWord(const Test& test, const WorldPlaces& places, std::siz
   testRows<kPreceding>(test, places, begin, hits);
   const std::size_t end = WorldPlaces::endOfWord(begin);
   for (std::size_t row = begin; row < end;) {
-    const std::size_t next = std::min(end, row + sink.rowsWithRoom(places.boxes()));
+    const std::size_t next = std::min(end, row + sink.makeRoomForRows(places.boxes()));
     takeRows<kPreceding, kCount, 2>(test, hits, places, row, next, partners, sink);
     row = next;
   }
@@ -329,18 +330,20 @@ HWY_INLINE void searchSome(const Test& test, const WorldPlaces& places, std::siz
 }
 
 /// The same of boxes as a test has them. Worlds without a filter whose pairs are wanted by their first boxes have a
-/// loop of their own.
+/// loop of their own. Pairs that are tested one by one are not counted only.
 template <bool kPreceding, bool kPlain, class Test>
 HWY_INLINE void searchRead(const Test& test, const WorldPlaces& places, std::size_t begin, WorldSink& sink) {
   if constexpr (kPlain) {
     searchWord<kPreceding, false>(test, places, begin, {places}, sink);
+  } else if constexpr (std::is_same_v<Test, NearestTest<false>>) {
+    searchWord<kPreceding, false>(test, places, begin, {places, sink.allowed}, sink);
   } else {
     searchSome<kPreceding>(test, places, begin, {places, sink.allowed}, sink);
   }
 }
 
-/// The same with a test of something. A function of its own: what is inlined into the loop over worlds compilers keep in
-/// memory, not in registers.
+/// The same with a test that is made here. A function of its own: what is inlined into the loop over worlds compilers
+/// keep in memory, not in registers.
 template <class Test, bool kPreceding, bool kPlain, class... Of>
 HWY_NOINLINE void searchBy(const WorldPlaces& places, std::size_t begin, WorldSink& sink, const Of&... of) {
   searchRead<kPreceding, kPlain>(Test(of...), places, begin, sink);
@@ -364,7 +367,7 @@ template <bool kPreceding, bool kPlain>
 HWY_INLINE void searchNearest(WorldsRun<double>& run, std::size_t first, const WorldPlaces& places, WorldSink& sink) {
   alignas(64) WorldTile<float> tile;
   readWorld(run, first, places, tile);
-  const RowsTest exact(run.boxes.part(first, places.boxes()));
+  const RowsTest exact(run.boxes.part(first, run.boxes.size));
   for (std::size_t begin = places.first; begin < places.end; begin = WorldPlaces::endOfWord(begin)) {
     const std::uint64_t before = sink.found();
     run.hadMany || sink.countOnly ? searchBy<NearestTest<true>, kPreceding, kPlain>(places, begin, sink, tile, exact)

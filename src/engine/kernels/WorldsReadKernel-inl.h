@@ -77,14 +77,18 @@ HWY_INLINE void readRowsOfSix(const float* rows, WorldTile<float>& tile, std::si
 #endif
 }
 
-/// As many values of float64 as a vector has lanes, as they are or as the nearest float32.
+/// As many values of float64 as a vector has lanes, as they are or as the nearest float32, which is finite: what is
+/// larger would signal an overflow.
 template <class D>
 HWY_INLINE void storeAs(D d, hn::Vec<D> values, hn::TFromD<D>* to) {
   hn::StoreU(values, d, to);
 }
 HWY_INLINE void storeAs(DoublesRead /*d*/, hn::Vec<DoublesRead> values, float* to) {
+  const DoublesRead d;
   const hn::Rebind<float, DoublesRead> floats;
-  hn::StoreU(hn::DemoteTo(floats, values), floats, to);
+  const auto most = hn::Set(d, static_cast<double>(hwy::HighestValue<float>()));
+  const auto finite = hn::Max(hn::Min(values, most), hn::Neg(most));
+  hn::StoreU(hn::DemoteTo(floats, finite), floats, to);
 }
 
 template <class Lane>
@@ -131,8 +135,8 @@ HWY_INLINE void readCorners(const T* min, const T* max, std::size_t stride, Worl
   }
 }
 
-/// The same for the first world's first vector, of which so many places lie before all boxes in memory; the first box is
-/// put there.
+/// The same for a world's first vector of which so many places lie before all boxes in memory: the first box is put
+/// there.
 template <class T, class Lane>
 HWY_INLINE void readFirstCorners(const WorldsRun<T>& run, std::size_t skipped, WorldTile<Lane>& tile, std::size_t at) {
   const std::size_t stride = run.boxes.stride;

@@ -64,7 +64,9 @@ struct WorldSink {
 
   /// The pairs that there must be room for to search a world: kernels write the first few of a word whether they are
   /// there or not.
-  [[nodiscard]] static constexpr std::size_t roomFor(std::size_t boxes) noexcept { return pairsOf(boxes) + kVectorSlack; }
+  [[nodiscard]] static constexpr std::size_t roomFor(std::size_t boxes) noexcept {
+    return pairsOf(boxes) + kVectorSlack;
+  }
 
   Pair* pairs = nullptr;
   std::size_t capacity = 0;  ///< With the slack.
@@ -83,16 +85,16 @@ struct WorldSink {
   /// If set, the memory of `pairs`, which grows as needed.
   Buffer<Pair>* growing = nullptr;
 
-  /// If set, is given the pairs of a world where there may be no room for more; the last ones stay. A part and the slack
-  /// are enough room then.
+  /// If set, is given the pairs of a run of one world where there may be no room for more; the last ones stay. Room for a
+  /// part, and the slack, is enough then.
   const FunctionRef<void(std::span<const Pair>)>* emit = nullptr;
   std::uint64_t emitted = 0;
 
   /// Of all searches.
   [[nodiscard]] std::uint64_t found() const noexcept { return emitted + size; }
 
-  /// How many boxes there is room for the pairs of, each with all of so many.
-  std::size_t rowsWithRoom(std::size_t boxes) {
+  /// Makes room for the pairs of some boxes, each with all of so many; returns of how many.
+  std::size_t makeRoomForRows(std::size_t boxes) {
     if (emit == nullptr) return kWordBoxes;
     const std::size_t rows = (capacity - kVectorSlack - size) / boxes;
     if (rows >= kFanOut / 2) return rows;
@@ -132,7 +134,8 @@ struct WorldsRun {
   std::uint64_t* pairEnd = nullptr;
   std::uint64_t boxTests = 0;
 
-  /// Of float64: whether the last world had many pairs for its boxes, as the next one then has; for speed only.
+  /// Of float64: whether the rows before, of this world or the last one, had many pairs, as the next ones then have; for
+  /// speed only.
   bool hadMany = false;
 };
 

@@ -20,8 +20,8 @@
 namespace allpairs::engine {
 namespace {
 
-/// Up to so many pairs of two sets, and twice as many of one, a plain loop over them takes less time than arranging boxes
-/// for vectors (docs/decisions/0009, few_benchmark).
+/// Up to so many pairs of two sets, and twice as many of one, a plain loop over them takes less time than arranging
+/// boxes for vectors (docs/decisions/0009, few_benchmark).
 constexpr std::size_t kTestedPairs = 24;
 
 /// Room for the hits that are buffered, more than those of one box and so few that they fit on the stack, and for what
@@ -34,8 +34,7 @@ constexpr std::size_t kSinkBytes =
 
 using TakePairs = FunctionRef<void(std::span<const Pair>)>;
 
-/// Whether boxes are compared as they are: only their bounds matter, which lie one after the other; of two sets, as rows
-/// of six.
+/// Whether boxes lie in memory one after the other, of two sets as rows of six.
 template <class T>
 bool arePlain(const Sets& sets) {
   return sets.one ? areRun<T>(sets.first) : areRows<T>(sets.first) && areRows<T>(sets.second);
@@ -57,7 +56,7 @@ std::size_t testAll(const BoxRun<T>& boxes, bool bySecond, Pair* pairs) {
 }
 
 template <class T>
-std::size_t testAll(PlainSearch<T>& search, Pair* pairs) {
+std::size_t testAll(const PlainSearch<T>& search, Pair* pairs) {
   std::size_t found = 0;
   for (std::uint32_t i = 0; i < search.rowCount; ++i) {
     for (std::uint32_t j = 0; j < search.columnCount; ++j) {
@@ -65,7 +64,6 @@ std::size_t testAll(PlainSearch<T>& search, Pair* pairs) {
       found += static_cast<std::size_t>(areHit(search.rows + 6 * std::size_t{i}, search.columns + 6 * std::size_t{j}));
     }
   }
-  search.rowBegin = search.rowCount;
   return found;
 }
 
@@ -82,11 +80,16 @@ PlainSearch<T> plainSearch(const Sets& sets, Order order) {
   return {first, second, firstSize, secondSize, false};
 }
 
-/// The pairs of one set, as those of a world.
+/// Calls take with the pairs of one set, which are those of a world, part by part.
 template <class T>
-void findAmong(const Sets& sets, const Kernels& kernels, Order order, TakePairs take) {
-  PairsOnStack<kPartSize + kVectorSlack> pairs;
+void findAmong(const Sets& sets, const OverlapOptions& options, Order order, TakePairs take) {
   static_assert(WorldSink::pairsOf(kWordBoxes) <= kPartSize && kMostFew <= kMostInWorld);
+  PairsOnStack<kPartSize + kVectorSlack> pairs;
+  const auto emit = [&](std::span<const Pair> part) {
+    take(part);
+    checkStop(options.stop);
+  };
+  const FunctionRef<void(std::span<const Pair>)> emitted(emit);
   const std::array<std::uint64_t, 2> begin{0, sets.first.size()};
   const Worlds world(sets.first, begin);
   std::uint64_t pairEnd = 0;
@@ -96,30 +99,34 @@ void findAmong(const Sets& sets, const Kernels& kernels, Order order, TakePairs 
   run.end = 1;
   run.sink = {pairs.data(), kPartSize + kVectorSlack};
   run.sink.bySecond = order == Order::BySecond;
-  run.sink.emit = &take;
+  run.sink.emit = &emitted;
   run.hadMany = true;
   run.pairEnd = &pairEnd;
-  kernels.plain<T>().searchWorlds(run);
+  chooseKernels(options).plain<T>().searchWorlds(run);
   take({pairs.data(), run.sink.size});
 }
 
 template <class T>
-void findBetween(const Sets& sets, const Kernels& kernels, Order order, TakePairs take) {
+void findBetween(const Sets& sets, const OverlapOptions& options, Order order, TakePairs take) {
   static_assert(kPartSize >= kMostFew);
   PairsOnStack<kPartSize + kVectorSlack> pairs;
   PlainSearch<T> search = plainSearch<T>(sets, order);
   search.room = kPartSize;
-  while (search.columnCount != 0 && search.rowBegin < search.rowCount)
+  const Kernels& kernels = chooseKernels(options);
+  while (true) {
     take({pairs.data(), kernels.plain<T>().searchFew(search, pairs.data())});
+    if (search.rowBegin == search.rowCount) return;
+    checkStop(options.stop);
+  }
 }
 
 template <class T>
 void testPlain(const Sets& sets, Order order, TakePairs take) {
   PairsOnStack<2 * kTestedPairs> pairs;
   const bool bySecond = order == Order::BySecond;
-  PlainSearch<T> search = plainSearch<T>(sets, order);
-  take(
-      {pairs.data(), sets.one ? testAll(runOf<T>(sets.first), bySecond, pairs.data()) : testAll(search, pairs.data())});
+  const std::size_t found = sets.one ? testAll(runOf<T>(sets.first), bySecond, pairs.data())
+                                     : testAll(plainSearch<T>(sets, order), pairs.data());
+  take({pairs.data(), found});
 }
 
 template <class T>
@@ -127,18 +134,19 @@ OverlapStatistics findPlain(const Sets& sets, const OverlapOptions& options, Ord
   OverlapStatistics statistics;
   statistics.boxTests = pairsOf(sets);
   const auto taken = [&](std::span<const Pair> pairs) {
-    checkStop(options.stop);
     statistics.pairs += pairs.size();
     checkLimit(options.maxPairs, statistics.pairs);
     if (!pairs.empty()) take(pairs);
   };
-  checkStop(options.stop);
   // An instruction set that is asked for has to be there, and is used.
-  if (statistics.boxTests <= (sets.one ? 2 : 1) * kTestedPairs && options.instructionSet.empty()) {
+  const bool isTested = statistics.boxTests <= (sets.one ? 2 : 1) * kTestedPairs && options.instructionSet.empty();
+  if (!isTested) static_cast<void>(chooseKernels(options));
+  if (statistics.boxTests == 0) return statistics;
+  checkStop(options.stop);
+  if (isTested) {
     testPlain<T>(sets, order, taken);
   } else {
-    const Kernels& kernels = chooseKernels(options);
-    sets.one ? findAmong<T>(sets, kernels, order, taken) : findBetween<T>(sets, kernels, order, taken);
+    sets.one ? findAmong<T>(sets, options, order, taken) : findBetween<T>(sets, options, order, taken);
   }
   return statistics;
 }
@@ -190,7 +198,9 @@ bool areFew(const Sets& sets, const OverlapOptions& options) {
   if (size <= kWordBoxes) return true;  // With any instruction set.
   const Kernels* const kernels = findKernels(options.instructionSet);
   if (kernels == nullptr || options.strategy == Strategy::Exhaustive) return true;
-  const bool isPlain = sets.one && onlyBoundsMatter(sets, options) && (arePlain<float>(sets) || arePlain<double>(sets));
+  // Where no order is asked for, the list does not depend on how boxes lie in memory.
+  const bool isPlain = sets.one && options.order != Order::Unordered && onlyBoundsMatter(sets, options) &&
+                       (arePlain<float>(sets) || arePlain<double>(sets));
   const std::size_t most = isPlain ? kernels->plainBoxes : kernels->flatBoxes;
   return sets.first.size() * sets.second.size() <= most * most;
 }

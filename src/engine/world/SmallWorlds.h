@@ -41,7 +41,7 @@ class SmallWorlds {
 
   /// What the search of a world takes, in tests of float32.
   [[nodiscard]] std::size_t testsOf(std::size_t world) const noexcept {
-    return (m_isPlain ? 1 : 2) * WorldSink::pairsOf(m_members.size(world));
+    return (m_isPlain && !m_boxes->isFloat64() ? 1 : 2) * WorldSink::pairsOf(m_members.size(world));
   }
 
   /// Whether this search is the fastest one for some boxes of the only world with all: see searchChanged().

@@ -206,7 +206,9 @@ std::size_t WorldsSearcher::runKernel(std::size_t world, std::size_t end, Worker
   run.mostBoxes = m_mostBoxes;
   run.sink = sink;
   run.pairEnd = m_begin.data() + 1;
+  run.hadMany = worker.hadMany;
   m_kernels->plain<T>().searchWorlds(run);
+  worker.hadMany = run.hadMany;
   sink = run.sink;
   worker.statistics.boxTests += run.boxTests;
   return run.world;

@@ -44,6 +44,7 @@ class WorldsSearcher {
     Buffer<Pair> scratch;  ///< Of a world whose pairs cannot be written to their place at once.
     Buffer<WideWorld> wide;
     OverlapStatistics statistics;
+    bool hadMany = false;  ///< As the kernel has it.
     std::atomic_flag busy;
   };
 
