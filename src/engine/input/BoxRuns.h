@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <type_traits>
 
@@ -39,21 +38,6 @@ template <class T>
 [[nodiscard]] BoxRun<T> runOf(const BoxView& boxes) noexcept {
   const BoxView::Corners<T>& corners = cornersOf<T>(boxes);
   return {corners.min.data, corners.max.data, static_cast<std::size_t>(corners.min.boxStride), boxes.size()};
-}
-
-/// Whether two boxes overlap, given their corners; no comparison is true of an empty box.
-template <class T>
-[[nodiscard]] bool areHit(const T* min, const T* max, const T* otherMin, const T* otherMax) noexcept {
-  const bool x = std::max(min[0], otherMin[0]) <= std::min(max[0], otherMax[0]);
-  const bool y = std::max(min[1], otherMin[1]) <= std::min(max[1], otherMax[1]);
-  const bool z = std::max(min[2], otherMin[2]) <= std::min(max[2], otherMax[2]);
-  return x & y & z;
-}
-
-/// The same of rows of six.
-template <class T>
-[[nodiscard]] bool areHit(const T* a, const T* b) noexcept {
-  return areHit(a, a + 3, b, b + 3);
 }
 
 }  // namespace allpairs::engine

@@ -204,6 +204,21 @@ struct BoxRun {
   }
 };
 
+/// Whether two boxes overlap, given their corners; no comparison is true of an empty box.
+template <class T>
+[[nodiscard]] bool areHit(const T* min, const T* max, const T* otherMin, const T* otherMax) noexcept {
+  const bool x = std::max(min[0], otherMin[0]) <= std::min(max[0], otherMax[0]);
+  const bool y = std::max(min[1], otherMin[1]) <= std::min(max[1], otherMax[1]);
+  const bool z = std::max(min[2], otherMin[2]) <= std::min(max[2], otherMax[2]);
+  return x & y & z;
+}
+
+/// The same of rows of six.
+template <class T>
+[[nodiscard]] bool areHit(const T* a, const T* b) noexcept {
+  return areHit(a, a + 3, b, b + 3);
+}
+
 /// For each selection of lanes, as bits: where the bytes of the selected lanes are, one lane after the other. What
 /// follows them is the first byte.
 template <std::size_t kLanes, std::size_t kLaneBytes>

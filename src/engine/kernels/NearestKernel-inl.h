@@ -14,7 +14,6 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "input/BoxRuns.h"
 #include "kernels/LaneTest-inl.h"
 #include "kernels/Lanes.h"
 

@@ -109,8 +109,8 @@ class BoundsTest {
   hn::Vec<D> m_columns[kVectors][6];
 };
 
-/// Boxes of float64 as the nearest float32, whose hits are tested in double: all of them where pairs are few; where they
-/// are many only those that are not certain, and telling these makes each test longer.
+/// Boxes of float64 as the nearest float32, whose hits are tested in double: all of them where pairs are few; where
+/// they are many only those that are not certain, and telling these makes each test longer.
 template <bool kMany>
 class NearestTest : public BoundsTest<float, kMany> {
  public:

@@ -85,8 +85,8 @@ struct WorldSink {
   /// If set, the memory of `pairs`, which grows as needed.
   Buffer<Pair>* growing = nullptr;
 
-  /// If set, is given the pairs of a run of one world where there may be no room for more; the last ones stay. Room for a
-  /// part, and the slack, is enough then.
+  /// If set, is given the pairs of a run of one world where there may be no room for more; the last ones stay. Room
+  /// for a part, and the slack, is enough then.
   const FunctionRef<void(std::span<const Pair>)>* emit = nullptr;
   std::uint64_t emitted = 0;
 
@@ -134,8 +134,8 @@ struct WorldsRun {
   std::uint64_t* pairEnd = nullptr;
   std::uint64_t boxTests = 0;
 
-  /// Of float64: whether the rows before, of this world or the last one, had many pairs, as the next ones then have; for
-  /// speed only.
+  /// Of float64: whether the rows before, of this world or the last one, had many pairs, as the next ones then have;
+  /// for speed only.
   bool hadMany = false;
 };
 
