@@ -274,8 +274,9 @@ struct Partners {
 
 /// The hits of rows in [begin, end) as pairs, or counted only. With kUnasked pairs of a word that are written unasked.
 template <bool kPreceding, bool kCount, std::size_t kUnasked, class Test>
-HWY_INLINE void takeRows(const Test& test, const WorldHits& hits, const WorldPlaces places, std::size_t begin,
-                         std::size_t end, const Partners partners, WorldSink& sink) {
+HWY_INLINE void takeRows(const Test& test, const WorldHits& hits, std::size_t begin, std::size_t end,
+                         const Partners partners, WorldSink& sink) {
+  const WorldPlaces& places = partners.places;
   const std::uint64_t* words = hits.all.data() + begin % kWordBoxes * places.words;
   const std::uint64_t* certain = hits.certain.data() + begin % kWordBoxes * places.words;
   std::uint64_t size = sink.size;
@@ -303,30 +304,29 @@ HWY_INLINE void takeRows(const Test& test, const WorldHits& hits, const WorldPla
 /// The pairs of the rows of a word from the one of `begin` on. Of worlds of one word most rows have hits in it; of
 /// larger ones few words have more than two.
 template <bool kPreceding, bool kCount, class Test>
-HWY_INLINE void searchWord(const Test& test, const WorldPlaces& places, std::size_t begin, const Partners& partners,
-                           WorldSink& sink) {
+HWY_INLINE void searchWord(const Test& test, std::size_t begin, const Partners& partners, WorldSink& sink) {
+  const WorldPlaces& places = partners.places;
   WorldHits hits;
   if (places.words == 1) {
-    const WorldPlaces one{places.first, kWordBoxes, 1};
-    testRows<kPreceding>(test, one, one.first, hits);
-    takeRows<kPreceding, kCount, 4>(test, hits, one, one.first, kWordBoxes, partners, sink);
+    const Partners inOne{{places.first, kWordBoxes, 1}, partners.allowed, partners.alive};
+    testRows<kPreceding>(test, inOne.places, places.first, hits);
+    takeRows<kPreceding, kCount, 4>(test, hits, places.first, kWordBoxes, inOne, sink);
     return;
   }
   testRows<kPreceding>(test, places, begin, hits);
   const std::size_t end = WorldPlaces::endOfWord(begin);
   for (std::size_t row = begin; row < end;) {
     const std::size_t next = std::min(end, row + sink.makeRoomForRows(places.boxes()));
-    takeRows<kPreceding, kCount, 2>(test, hits, places, row, next, partners, sink);
+    takeRows<kPreceding, kCount, 2>(test, hits, row, next, partners, sink);
     row = next;
   }
 }
 
 /// The same, for what is known of all worlds only now.
 template <bool kPreceding, class Test>
-HWY_INLINE void searchSome(const Test& test, const WorldPlaces& places, std::size_t begin, const Partners& partners,
-                           WorldSink& sink) {
-  sink.countOnly ? searchWord<kPreceding, true>(test, places, begin, partners, sink)
-                 : searchWord<kPreceding, false>(test, places, begin, partners, sink);
+HWY_INLINE void searchSome(const Test& test, std::size_t begin, const Partners& partners, WorldSink& sink) {
+  sink.countOnly ? searchWord<kPreceding, true>(test, begin, partners, sink)
+                 : searchWord<kPreceding, false>(test, begin, partners, sink);
 }
 
 /// The same of boxes as a test has them. Worlds without a filter whose pairs are wanted by their first boxes have a
@@ -334,11 +334,11 @@ HWY_INLINE void searchSome(const Test& test, const WorldPlaces& places, std::siz
 template <bool kPreceding, bool kPlain, class Test>
 HWY_INLINE void searchRead(const Test& test, const WorldPlaces& places, std::size_t begin, WorldSink& sink) {
   if constexpr (kPlain) {
-    searchWord<kPreceding, false>(test, places, begin, {places}, sink);
+    searchWord<kPreceding, false>(test, begin, {places}, sink);
   } else if constexpr (std::is_same_v<Test, NearestTest<false>>) {
-    searchWord<kPreceding, false>(test, places, begin, {places, sink.allowed}, sink);
+    searchWord<kPreceding, false>(test, begin, {places, sink.allowed}, sink);
   } else {
-    searchSome<kPreceding>(test, places, begin, {places, sink.allowed}, sink);
+    searchSome<kPreceding>(test, begin, {places, sink.allowed}, sink);
   }
 }
 
@@ -414,9 +414,9 @@ HWY_INLINE void searchWide(const WideWorld& world, WorldSink& sink) {
   const Partners partners{places, sink.allowed, world.alive.data()};
   for (std::size_t begin = places.first; begin < places.end; begin = WorldPlaces::endOfWord(begin)) {
     if (!world.hasMargins && world.distance == 0.0) {
-      searchSome<kPreceding>(BoundsTest<double>(world.tile), places, begin, partners, sink);
+      searchSome<kPreceding>(BoundsTest<double>(world.tile), begin, partners, sink);
     } else {
-      searchSome<kPreceding>(WideTest<kPreceding>(world), places, begin, partners, sink);
+      searchSome<kPreceding>(WideTest<kPreceding>(world), begin, partners, sink);
     }
   }
 }
