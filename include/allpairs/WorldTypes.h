@@ -91,7 +91,8 @@ struct StepResult {
 struct WorldStatistics {
   std::uint64_t boxTests = 0;    ///< Tests of two boxes, each in one lane of a vector.
   std::uint64_t groupTests = 0;  ///< Tests of the bounds of two groups, or of a box and a group.
-  std::uint64_t exactTests = 0;  ///< Candidates of the float32 test that were tested again in double.
+  std::uint64_t exactTests = 0;  ///< Candidates of the float32 test that were tested again in double, but for those of
+                                 ///< small worlds.
   std::uint64_t changed = 0;     ///< Boxes that were added, moved, removed or given other properties.
   bool joinedAll = false;        ///< Whether the step joined all boxes, instead of only the changed ones with all.
   /// The number of full rebuilds of a hierarchy up to the last step, by steps and queries; with world numbers, of how

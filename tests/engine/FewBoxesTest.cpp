@@ -215,10 +215,10 @@ TYPED_TEST(FewBoxes, AreStoppedBetweenPartsOfTheirPairs) {
   const std::size_t parts = boxes.size() * (boxes.size() - 1) / 2 / 4096 + 1;
   for (; answered < static_cast<int>(parts); ++answered) {
     asked = 0;
-    EXPECT_THROW((void)overlaps(boxes, {.stop = &stop}), Stopped) << answered;
+    EXPECT_THROW((void)overlaps(boxes, {.strategy = Strategy::Exhaustive, .stop = &stop}), Stopped) << answered;
   }
   answered = 1000;
-  EXPECT_EQ(overlaps(boxes, {.stop = &stop}), test::oracle(inDouble(boxes)));
+  EXPECT_EQ(overlaps(boxes, {.strategy = Strategy::Exhaustive, .stop = &stop}), test::oracle(inDouble(boxes)));
 }
 
 /// Bounds that float32 cannot tell apart.

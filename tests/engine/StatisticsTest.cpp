@@ -126,7 +126,7 @@ TEST(Statistics, ExactTestsAreCountedWhereLanesCannotDecideAndNowhereElse) {
         options.executor = executor;
         OverlapSearch search(options);
         EXPECT_EQ(search.count(boxes), pairs) << side;
-        // Few boxes of which only bounds matter are not rounded (FewBoxes.cpp).
+        // Few boxes of which only bounds matter are not rounded to lanes (FewBoxes.cpp).
         const bool isRounded = strategy == Strategy::Bvh || 3 * side > 384;
         EXPECT_EQ(search.statistics().exactTests, isRounded ? 2 * side * side : 0) << side;
         EXPECT_EQ(search.count(plain), 3 * side * (3 * side - 1) / 2) << side;

@@ -26,7 +26,7 @@ namespace {  // Each file that compiles the kernels has its own.
 /// Measured by few_benchmark (docs/decisions/0009): wide vectors test more pairs.
 constexpr std::size_t kFlatBoxes = HWY_TARGET == HWY_SCALAR ? 72 : HWY_TARGET <= HWY_AVX2 ? 256 : 192;
 
-/// The same of boxes as they lie in memory, for which only wide vectors make up.
+/// The same of one set that is not read into lanes: more where vectors are wide.
 constexpr std::size_t kPlainBoxes = kFlatBoxes + (HWY_TARGET <= HWY_AVX2 ? kFlatBoxes / 4 : 0);
 static_assert(kPlainBoxes <= kMostFew);
 

@@ -204,7 +204,8 @@ struct BlockVisits {
   std::size_t size = 0;
 };
 
-/// The functions for boxes as they lie in memory, which are not rounded.
+/// The functions for boxes as they lie in memory. Only searchWorlds() rounds: float64 to the nearest float32, with an
+/// exact test of what it finds.
 template <class T>
 struct PlainKernels {
   /// Writes the pairs, by row, of as many of the rows that are left as there is room for, and up to kVectorSlack past

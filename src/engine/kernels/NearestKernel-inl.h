@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Hits among boxes of float64 as the nearest float32, tested in double one by one. Rounding to the nearest keeps the
-// order of two bounds or makes them equal, so that what overlaps is a hit, and a hit may be boxes apart.
+// order of two bounds or makes them equal, so that every pair is a hit, and a hit may be of boxes that are apart.
 
 #if defined(ALLPAIRS_NEAREST_KERNEL_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef ALLPAIRS_NEAREST_KERNEL_INL_H

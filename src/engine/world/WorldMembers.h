@@ -15,8 +15,8 @@
 
 namespace allpairs::engine {
 
-/// The most boxes of an only world that are listed and searched as small ones, which up to there is faster than a
-/// hierarchy whatever part of the boxes overlaps (docs/decisions/0031). Room for all their pairs takes 147 KB.
+/// The most boxes of an only world that are listed and searched as small ones, which up to there takes no longer than
+/// a hierarchy (docs/decisions/0031). Room for all their pairs takes 147 KB.
 inline constexpr std::size_t kMostAlone = 192;
 
 /// The boxes of each world of a store, by ascending id; the worlds by ascending number. After the last one come the
