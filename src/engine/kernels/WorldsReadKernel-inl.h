@@ -87,7 +87,11 @@ HWY_INLINE void storeAs(DoublesRead /*d*/, hn::Vec<DoublesRead> values, float* t
   const DoublesRead d;
   const hn::Rebind<float, DoublesRead> floats;
   const auto most = hn::Set(d, static_cast<double>(hwy::HighestValue<float>()));
+#if HWY_TARGET <= HWY_AVX3
+  const hn::Vec<DoublesRead> finite{_mm256_range_pd(values.raw, most.raw, 2)};  // The lesser one, without its sign.
+#else
   const auto finite = hn::Max(hn::Min(values, most), hn::Neg(most));
+#endif
   hn::StoreU(hn::DemoteTo(floats, finite), floats, to);
 }
 
