@@ -116,15 +116,23 @@ struct HairsApart {
   }
 };
 
-TEST_P(WorldsApart, ByLessThanFloat32TellsGiveTheOraclesPairs) {
-  const HairsApart scene(static_cast<unsigned>(GetParam().back()));
+/// Boxes as two arrays.
+struct SceneCorners {
   std::vector<double> min;
   std::vector<double> max;
-  for (const Box& box : scene.boxes) {
-    min.insert(min.end(), box.min.begin(), box.min.end());
-    max.insert(max.end(), box.max.begin(), box.max.end());
+
+  explicit SceneCorners(const std::vector<Box>& boxes) {
+    for (const Box& box : boxes) {
+      min.insert(min.end(), box.min.begin(), box.min.end());
+      max.insert(max.end(), box.max.begin(), box.max.end());
+    }
   }
-  for (const BoxView& view : {BoxView(scene.boxes), BoxView::fromCorners(min, max)}) {
+};
+
+TEST_P(WorldsApart, ByLessThanFloat32TellsGiveTheOraclesPairs) {
+  const HairsApart scene(static_cast<unsigned>(GetParam().back()));
+  const SceneCorners corners(scene.boxes);
+  for (const BoxView& view : {BoxView(scene.boxes), BoxView::fromCorners(corners.min, corners.max)}) {
     for (const Order order : {Order::ByFirst, Order::BySecond}) {
       WorldsSearch search({.order = order, .instructionSet = GetParam()});
       const Worlds worlds(view, scene.begin);
@@ -143,17 +151,13 @@ TEST_P(WorldsApart, ByLessThanFloat32TellsGiveTheOraclesPairsAlone) {
   const HairsApart scene(static_cast<unsigned>(GetParam().back()) + 2);
   for (std::size_t k = 0; k + 1 < scene.begin.size(); ++k) {
     const std::vector<Box> boxes = scene.world(k);
-    std::vector<double> min;
-    std::vector<double> max;
-    for (const Box& box : boxes) {
-      min.insert(min.end(), box.min.begin(), box.min.end());
-      max.insert(max.end(), box.max.begin(), box.max.end());
-    }
+    const SceneCorners corners(boxes);
     const std::vector<Pair> expected = test::oracle(boxes);
     for (const Order order : {Order::ByFirst, Order::BySecond}) {
       const OverlapOptions options{.order = order, .instructionSet = GetParam()};
       ASSERT_THAT(overlaps(BoxView(boxes), options), ElementsAreArray(test::inOrder(expected, order))) << k;
-      ASSERT_THAT(overlaps(BoxView::fromCorners(min, max), options), ElementsAreArray(test::inOrder(expected, order)))
+      ASSERT_THAT(overlaps(BoxView::fromCorners(corners.min, corners.max), options),
+                  ElementsAreArray(test::inOrder(expected, order)))
           << k;
     }
   }

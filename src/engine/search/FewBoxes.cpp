@@ -82,14 +82,9 @@ PlainSearch<T> plainSearch(const Sets& sets, Order order) {
 
 /// Calls take with the pairs of one set, which are those of a world, part by part.
 template <class T>
-void findAmong(const Sets& sets, const OverlapOptions& options, Order order, TakePairs take) {
+void findAmong(const Sets& sets, const Kernels& kernels, Order order, TakePairs take) {
   static_assert(WorldSink::pairsOf(kWordBoxes) <= kPartSize && kMostFew <= kMostInWorld);
   PairsOnStack<kPartSize + kVectorSlack> pairs;
-  const auto emit = [&](std::span<const Pair> part) {
-    take(part);
-    checkStop(options.stop);
-  };
-  const FunctionRef<void(std::span<const Pair>)> emitted(emit);
   const std::array<std::uint64_t, 2> begin{0, sets.first.size()};
   const Worlds world(sets.first, begin);
   std::uint64_t pairEnd = 0;
@@ -99,25 +94,20 @@ void findAmong(const Sets& sets, const OverlapOptions& options, Order order, Tak
   run.end = 1;
   run.sink = {pairs.data(), kPartSize + kVectorSlack};
   run.sink.bySecond = order == Order::BySecond;
-  run.sink.emit = &emitted;
+  run.sink.emit = &take;
   run.hadMany = true;
   run.pairEnd = &pairEnd;
-  chooseKernels(options).plain<T>().searchWorlds(run);
+  kernels.plain<T>().searchWorlds(run);
   take({pairs.data(), run.sink.size});
 }
 
 template <class T>
-void findBetween(const Sets& sets, const OverlapOptions& options, Order order, TakePairs take) {
+void findBetween(const Sets& sets, const Kernels& kernels, Order order, TakePairs take) {
   static_assert(kPartSize >= kMostFew);
   PairsOnStack<kPartSize + kVectorSlack> pairs;
   PlainSearch<T> search = plainSearch<T>(sets, order);
   search.room = kPartSize;
-  const Kernels& kernels = chooseKernels(options);
-  while (true) {
-    take({pairs.data(), kernels.plain<T>().searchFew(search, pairs.data())});
-    if (search.rowBegin == search.rowCount) return;
-    checkStop(options.stop);
-  }
+  while (search.rowBegin < search.rowCount) take({pairs.data(), kernels.plain<T>().searchFew(search, pairs.data())});
 }
 
 template <class T>
@@ -134,19 +124,20 @@ OverlapStatistics findPlain(const Sets& sets, const OverlapOptions& options, Ord
   OverlapStatistics statistics;
   statistics.boxTests = pairsOf(sets);
   const auto taken = [&](std::span<const Pair> pairs) {
+    if (statistics.pairs != 0) checkStop(options.stop);  // Between parts.
     statistics.pairs += pairs.size();
     checkLimit(options.maxPairs, statistics.pairs);
     if (!pairs.empty()) take(pairs);
   };
   // An instruction set that is asked for has to be there, and is used.
   const bool isTested = statistics.boxTests <= (sets.one ? 2 : 1) * kTestedPairs && options.instructionSet.empty();
-  if (!isTested) static_cast<void>(chooseKernels(options));
+  const Kernels* const kernels = isTested ? nullptr : &chooseKernels(options);
   if (statistics.boxTests == 0) return statistics;
   checkStop(options.stop);
-  if (isTested) {
+  if (kernels == nullptr) {
     testPlain<T>(sets, order, taken);
   } else {
-    sets.one ? findAmong<T>(sets, options, order, taken) : findBetween<T>(sets, options, order, taken);
+    sets.one ? findAmong<T>(sets, *kernels, order, taken) : findBetween<T>(sets, *kernels, order, taken);
   }
   return statistics;
 }
