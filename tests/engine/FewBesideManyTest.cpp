@@ -18,6 +18,7 @@
 #include "allpairs/Overlaps.h"
 #include "allpairs/parallel/TbbExecutor.h"
 #include "support/Boxes.h"
+#include "support/Corners.h"
 #include "support/Oracle.h"
 
 namespace allpairs {
@@ -59,20 +60,6 @@ std::vector<Pair> pairsByLoop(const std::vector<T>& first, const std::vector<T>&
   return test::oracleBetween(boxesOf(first), boxesOf(second));
 }
 
-/// The same boxes as rows of three in two arrays.
-template <class T>
-struct Corners {
-  std::vector<T> min, max;
-
-  explicit Corners(const std::vector<T>& rows) {
-    for (std::size_t i = 0; i < rows.size(); i += 3) {
-      std::vector<T>& corner = i / 3 % 2 == 0 ? min : max;
-      corner.insert(corner.end(), rows.begin() + static_cast<std::ptrdiff_t>(i),
-                    rows.begin() + static_cast<std::ptrdiff_t>(i) + 3);
-    }
-  }
-};
-
 void expectPairs(OverlapSearch& search, const BoxView& first, const BoxView& second,
                  const std::vector<Pair>& expected) {
   const Order order = search.options().order;
@@ -110,8 +97,8 @@ TYPED_TEST(FewBesideMany, GiveTheLoopsPairsInEveryOrderLayoutAndInstructionSet) 
     for (const std::size_t few : {0U, 1U, 2U, 3U, 4U, 5U, 7U, 8U, 9U}) {
       const std::vector<TypeParam> a = someRows<TypeParam>(few, ++seed, many < 1000 ? 1.5 : 0.1);
       const std::vector<TypeParam> b = someRows<TypeParam>(many, ++seed, many < 1000 ? 0.4 : 0.05);
-      const Corners<TypeParam> aCorners(a);
-      const Corners<TypeParam> bCorners(b);
+      const test::Corners<TypeParam> aCorners(a);
+      const test::Corners<TypeParam> bCorners(b);
       const std::vector<Pair> fewFirst = pairsByLoop(a, b);
       const std::vector<Pair> fewSecond = pairsByLoop(b, a);
       for (const std::string_view instructionSet : instructionSets()) {
@@ -120,10 +107,8 @@ TYPED_TEST(FewBesideMany, GiveTheLoopsPairsInEveryOrderLayoutAndInstructionSet) 
           OverlapSearch search({.order = order, .instructionSet = instructionSet});
           ASSERT_NO_FATAL_FAILURE(expectPairs(search, BoxView::fromRows(a), BoxView::fromRows(b), fewFirst));
           ASSERT_NO_FATAL_FAILURE(expectPairs(search, BoxView::fromRows(b), BoxView::fromRows(a), fewSecond));
-          ASSERT_NO_FATAL_FAILURE(expectPairs(search, BoxView::fromCorners(aCorners.min, aCorners.max),
-                                              BoxView::fromCorners(bCorners.min, bCorners.max), fewFirst));
-          ASSERT_NO_FATAL_FAILURE(
-              expectPairs(search, BoxView::fromRows(b), BoxView::fromCorners(aCorners.min, aCorners.max), fewSecond));
+          ASSERT_NO_FATAL_FAILURE(expectPairs(search, aCorners.view(), bCorners.view(), fewFirst));
+          ASSERT_NO_FATAL_FAILURE(expectPairs(search, BoxView::fromRows(b), aCorners.view(), fewSecond));
         }
       }
       ASSERT_NO_FATAL_FAILURE(expectRows(BoxView::fromRows(a), BoxView::fromRows(b), fewFirst));

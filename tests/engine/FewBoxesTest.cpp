@@ -14,6 +14,7 @@
 #include "allpairs/Overlaps.h"
 #include "allpairs/StopFlag.h"
 #include "support/Boxes.h"
+#include "support/Corners.h"
 #include "support/Numbers.h"
 #include "support/Oracle.h"
 
@@ -135,6 +136,26 @@ TYPED_TEST(FewBoxes, OfTwoSetsGiveTheOraclesPairsForEveryCountWithEveryInstructi
   }
 }
 
+TYPED_TEST(FewBoxes, OfTwoSetsInTwoArraysGiveTheOraclesPairs) {
+  for (std::size_t n = 1; n <= kSomewhatMany; n += n < 20 ? 1 : 11) {
+    for (const std::size_t m : {1U, 6U, 8U, 13U, 64U, 65U, 130U}) {
+      const auto first = someBoxes<TypeParam>(n, static_cast<unsigned>(n));
+      const auto second = someBoxes<TypeParam>(m, static_cast<unsigned>(500 + m));
+      const test::Corners<TypeParam> firstCorners(first);
+      const test::Corners<TypeParam> secondCorners(second);
+      const std::vector<Pair> expected = test::oracleBetween(inDouble(first), inDouble(second));
+      for (const std::string_view instructionSet : instructionSets()) {
+        for (const Order order : {Order::ByFirst, Order::BySecond}) {
+          const OverlapOptions options{.order = order, .instructionSet = instructionSet};
+          const std::vector<Pair> inOrder = test::inOrder(expected, order);
+          ASSERT_EQ(overlaps(firstCorners.view(), secondCorners.view(), options), inOrder) << n << " and " << m;
+          ASSERT_EQ(overlaps(first, secondCorners.view(), options), inOrder) << n << " and " << m;
+        }
+      }
+    }
+  }
+}
+
 TYPED_TEST(FewBoxes, GiveTheSameListWithEveryInstructionSet) {
   for (std::size_t n = 0; n <= kSomewhatMany; ++n) {
     const auto boxes = someBoxes<TypeParam>(n, static_cast<unsigned>(n));
@@ -219,6 +240,18 @@ TYPED_TEST(FewBoxes, AreStoppedBetweenPartsOfTheirPairs) {
   }
   answered = 1000;
   EXPECT_EQ(overlaps(boxes, {.strategy = Strategy::Exhaustive, .stop = &stop}), test::oracle(inDouble(boxes)));
+}
+
+TYPED_TEST(FewBoxes, OfTwoSetsAreStoppedBetweenPartsOfTheirPairs) {
+  const std::vector<BasicBox<TypeParam>> boxes(200, {{0, 0, 0}, {1, 1, 1}});
+  const std::vector<Pair> expected = test::oracleBetween(inDouble(boxes), inDouble(boxes));
+  int asked = 0;
+  const auto ask = [&] { return ++asked == 7; };
+  const StopFlag stop(ask);
+  EXPECT_THROW((void)overlaps(boxes, boxes, {.stop = &stop}), Stopped);
+  EXPECT_EQ(asked, 7);
+  EXPECT_EQ(overlaps(boxes, boxes, {.stop = &stop}), expected);
+  EXPECT_GT(asked, 7 + static_cast<int>(expected.size() / 4096));
 }
 
 /// Bounds that float32 cannot tell apart.

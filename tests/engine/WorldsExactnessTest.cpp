@@ -19,6 +19,7 @@
 #include "allpairs/World.h"
 #include "allpairs/Worlds.h"
 #include "support/Boxes.h"
+#include "support/Corners.h"
 #include "support/Oracle.h"
 
 namespace allpairs {
@@ -116,23 +117,10 @@ struct HairsApart {
   }
 };
 
-/// Boxes as two arrays.
-struct SceneCorners {
-  std::vector<double> min;
-  std::vector<double> max;
-
-  explicit SceneCorners(const std::vector<Box>& boxes) {
-    for (const Box& box : boxes) {
-      min.insert(min.end(), box.min.begin(), box.min.end());
-      max.insert(max.end(), box.max.begin(), box.max.end());
-    }
-  }
-};
-
 TEST_P(WorldsApart, ByLessThanFloat32TellsGiveTheOraclesPairs) {
   const HairsApart scene(static_cast<unsigned>(GetParam().back()));
-  const SceneCorners corners(scene.boxes);
-  for (const BoxView& view : {BoxView(scene.boxes), BoxView::fromCorners(corners.min, corners.max)}) {
+  const test::Corners<double> corners(scene.boxes);
+  for (const BoxView& view : {BoxView(scene.boxes), corners.view()}) {
     for (const Order order : {Order::ByFirst, Order::BySecond}) {
       WorldsSearch search({.order = order, .instructionSet = GetParam()});
       const Worlds worlds(view, scene.begin);
@@ -151,14 +139,31 @@ TEST_P(WorldsApart, ByLessThanFloat32TellsGiveTheOraclesPairsAlone) {
   const HairsApart scene(static_cast<unsigned>(GetParam().back()) + 2);
   for (std::size_t k = 0; k + 1 < scene.begin.size(); ++k) {
     const std::vector<Box> boxes = scene.world(k);
-    const SceneCorners corners(boxes);
+    const test::Corners<double> corners(boxes);
     const std::vector<Pair> expected = test::oracle(boxes);
     for (const Order order : {Order::ByFirst, Order::BySecond}) {
       const OverlapOptions options{.order = order, .instructionSet = GetParam()};
       ASSERT_THAT(overlaps(BoxView(boxes), options), ElementsAreArray(test::inOrder(expected, order))) << k;
-      ASSERT_THAT(overlaps(BoxView::fromCorners(corners.min, corners.max), options),
-                  ElementsAreArray(test::inOrder(expected, order)))
-          << k;
+      ASSERT_THAT(overlaps(corners.view(), options), ElementsAreArray(test::inOrder(expected, order))) << k;
+    }
+  }
+}
+
+/// The same of two sets, of worlds of the same scale.
+TEST_P(WorldsApart, ByLessThanFloat32TellsGiveTheOraclesPairsOfTwoSets) {
+  const HairsApart scene(static_cast<unsigned>(GetParam().back()) + 4);
+  for (std::size_t k = 0; k + 2 < scene.begin.size(); ++k) {
+    const std::vector<Box> first = scene.world(k);
+    const std::vector<Box> second = scene.world(k + 1);
+    const test::Corners<double> firstCorners(first);
+    const test::Corners<double> secondCorners(second);
+    const std::vector<Pair> expected = test::oracleBetween(first, second);
+    for (const Order order : {Order::ByFirst, Order::BySecond}) {
+      const OverlapOptions options{.strategy = Strategy::Exhaustive, .order = order, .instructionSet = GetParam()};
+      const std::vector<Pair> inOrder = test::inOrder(expected, order);
+      ASSERT_THAT(overlaps(BoxView(first), BoxView(second), options), ElementsAreArray(inOrder)) << k;
+      ASSERT_THAT(overlaps(firstCorners.view(), BoxView(second), options), ElementsAreArray(inOrder)) << k;
+      ASSERT_THAT(overlaps(firstCorners.view(), secondCorners.view(), options), ElementsAreArray(inOrder)) << k;
     }
   }
 }
@@ -171,9 +176,15 @@ TEST_P(WorldsApart, ByLessThanFloat32TellsGiveTheOraclesPairsInAnOnlyWorld) {
     const std::vector<Box> added(scene.boxes.begin(), scene.boxes.begin() + static_cast<std::ptrdiff_t>(size));
     const std::vector<BoxId> ids = world.add(BoxView(added));
     ASSERT_THAT(world.step().pairs, ElementsAreArray(test::oracle(added))) << size;
-    const std::vector<Box> moved(scene.boxes.end() - static_cast<std::ptrdiff_t>(size), scene.boxes.end());
+    std::vector<Box> moved(scene.boxes.end() - static_cast<std::ptrdiff_t>(size), scene.boxes.end());
     world.move(ids, BoxView(moved));
     ASSERT_THAT(world.step().pairs, ElementsAreArray(test::oracle(moved))) << size;
+    for (const std::size_t few : {1U, 5U, 31U}) {  // These are tested against all.
+      const std::vector<Box> again(added.begin(), added.begin() + static_cast<std::ptrdiff_t>(few));
+      std::copy(again.begin(), again.end(), moved.begin());
+      world.move(Span<const BoxId>(ids).first(few), BoxView(again));
+      ASSERT_THAT(world.step().pairs, ElementsAreArray(test::oracle(moved))) << few << " of " << size;
+    }
   }
 }
 
@@ -225,9 +236,11 @@ TEST_P(WorldsApart, ByMoreThanFloat32HasSignalNoOverflow) {
   std::feclearexcept(FE_ALL_EXCEPT);
   const std::size_t found = search.find(Worlds(BoxView(boxes), begin)).pairs.size();
   const std::size_t alone = overlaps(BoxView(boxes), {.instructionSet = GetParam()}).size();
+  const std::size_t between = overlaps(BoxView(boxes), BoxView(boxes), {.instructionSet = GetParam()}).size();
   EXPECT_EQ(std::fetestexcept(FE_OVERFLOW | FE_DIVBYZERO), 0);
   EXPECT_EQ(found, 10U + 65U * 64U / 2);
   EXPECT_EQ(alone, 70U * 69U / 2);
+  EXPECT_EQ(between, 70U * 70U);
 }
 
 /// They are read as they are; other boxes with the scalar kernels.

@@ -15,13 +15,17 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "kernels/FewKernel-inl.h"
+#include "kernels/BitsKernel-inl.h"
 #include "kernels/Kernels.h"
 #include "kernels/LaneTest-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace allpairs::engine::HWY_NAMESPACE {
 namespace {  // Each file that compiles the kernels has its own.
+
+/// From so many pairs in a word on they are selected by vectors, which takes the same time for any number
+/// (few_benchmark).
+constexpr int kManyBits = 8;
 
 /// Whether no bound of box i lies beyond the box, and box i is not empty.
 template <class T>
@@ -152,9 +156,8 @@ HWY_INLINE std::size_t writeTouchingOne(const TouchedBoxes& touched, Pair* pairs
   for (std::size_t i = 0; i < touched.size; i += kWordBoxes) {
     const std::uint64_t bits = touched.words[0][i / kWordBoxes];
     const std::uint32_t first = touched.first + static_cast<std::uint32_t>(i);
-    size += std::popcount(bits) > kManyBits
-                ? writeManyBits<kOneSecond>(bits, touched.firstOther, first, pairs + size)
-                : writeBits<kOneSecond, kUnaskedOfFew>(bits, touched.firstOther, first, pairs + size);
+    size += std::popcount(bits) > kManyBits ? writeManyBits<kOneSecond>(bits, touched.firstOther, first, pairs + size)
+                                            : writeBits<kOneSecond, 2>(bits, touched.firstOther, first, pairs + size);
   }
   return size;
 }

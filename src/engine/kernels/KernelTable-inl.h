@@ -11,7 +11,6 @@
 #include <algorithm>
 
 #include "kernels/CullKernel-inl.h"
-#include "kernels/FewKernel-inl.h"
 #include "kernels/FlatKernel-inl.h"
 #include "kernels/JoinKernel-inl.h"
 #include "kernels/Kernels.h"
@@ -44,8 +43,8 @@ const Kernels* kernelTable() {
                              kWideBoxes,
                              kTestsForPair,
                              &searchFlat,
-                             {&searchFew<float>, &touchBoxes<float>, &anyNan<float>, &searchWorlds<float>},
-                             {&searchFew<double>, &touchBoxes<double>, &anyNan<double>, &searchWorlds<double>},
+                             {&touchBoxes<float>, &anyNan<float>, &searchWorlds<float>, &searchBetween<float>},
+                             {&touchBoxes<double>, &anyNan<double>, &searchWorlds<double>, &searchBetween<double>},
                              &writeTouching,
                              &searchWideWorld,
                              &join,

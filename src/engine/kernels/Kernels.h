@@ -36,18 +36,6 @@ struct FlatSearch {
 inline constexpr std::size_t kMostFew = 384;
 static_assert(kMostFew <= LaneTile::kCapacity);
 
-/// Every row against its columns, of boxes as they lie in memory, rows of six that follow each other.
-template <class T>
-struct PlainSearch {
-  const T* rows = nullptr;
-  const T* columns = nullptr;
-  std::size_t rowCount = 0;
-  std::size_t columnCount = 0;  ///< From 1 to kMostFew.
-  bool rowSecond = false;       ///< Whether the row is second in its pairs.
-  std::size_t room = 0;         ///< For pairs: no fewer than there are columns.
-  std::size_t rowBegin = 0;     ///< The next row to search; all rows before it have been.
-};
-
 /// A box with its id, at one place in memory.
 struct alignas(32) NumberedBox {
   LaneBox box;
@@ -204,14 +192,10 @@ struct BlockVisits {
   std::size_t size = 0;
 };
 
-/// The functions for boxes as they lie in memory. Only searchWorlds() rounds: float64 to the nearest float32, with an
-/// exact test of what it finds.
+/// The functions for boxes as they lie in memory. The searches round float64 to the nearest float32, and test what they
+/// find exactly.
 template <class T>
 struct PlainKernels {
-  /// Writes the pairs, by row, of as many of the rows that are left as there is room for, and up to kVectorSlack past
-  /// the last one. Returns how many there are.
-  std::size_t (*searchFew)(PlainSearch<T>& search, Pair* pairs);
-
   /// Writes, as bits of words, which boxes of a run are not empty and touch a box, which is not empty either.
   void (*touchBoxes)(const BoxRun<T>& run, const std::array<T, 6>& box, std::uint64_t* words);
 
@@ -220,6 +204,9 @@ struct PlainKernels {
 
   /// All pairs of each of many worlds of few boxes.
   void (*searchWorlds)(WorldsRun<T>& run);
+
+  /// All pairs of two sets of few boxes.
+  void (*searchBetween)(BetweenRun<T>& run);
 };
 
 /// The functions compiled once per instruction set. The results do not depend on which one runs.

@@ -213,10 +213,10 @@ template <class T>
   return x & y & z;
 }
 
-/// The same of rows of six.
+/// The same of boxes of runs.
 template <class T>
-[[nodiscard]] bool areHit(const T* a, const T* b) noexcept {
-  return areHit(a, a + 3, b, b + 3);
+[[nodiscard]] bool areHit(const BoxRun<T>& a, std::size_t i, const BoxRun<T>& b, std::size_t j) noexcept {
+  return areHit(a.min + i * a.stride, a.max + i * a.stride, b.min + j * b.stride, b.max + j * b.stride);
 }
 
 /// For each selection of lanes, as bits: where the bytes of the selected lanes are, one lane after the other. What

@@ -9,7 +9,6 @@
 #define ALLPAIRS_NEAREST_KERNEL_INL_H
 #endif
 
-#include <algorithm>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -21,20 +20,20 @@ HWY_BEFORE_NAMESPACE();
 namespace allpairs::engine::HWY_NAMESPACE {
 namespace {  // Each file that compiles the kernels has its own.
 
-/// Boxes of float64 in rows of six or three, tested one pair at a time.
+/// Boxes of float64 in rows of six or three, of one set or two, tested one pair at a time.
 class RowsTest {
  public:
-  HWY_INLINE explicit RowsTest(const BoxRun<double>& boxes) : m_boxes(boxes) {}
+  HWY_INLINE RowsTest(const BoxRun<double>& first, const BoxRun<double>& second) : m_first(first), m_second(second) {}
 
   [[nodiscard]] HWY_INLINE bool areHit(Pair pair) const {
-    const double* const min = m_boxes.min + m_boxes.stride * pair.first;
-    const double* const max = m_boxes.max + m_boxes.stride * pair.first;
-    const double* const otherMin = m_boxes.min + m_boxes.stride * pair.second;
-    const double* const otherMax = m_boxes.max + m_boxes.stride * pair.second;
+    const double* const min = m_first.min + m_first.stride * pair.first;
+    const double* const max = m_first.max + m_first.stride * pair.first;
+    const double* const otherMin = m_second.min + m_second.stride * pair.second;
+    const double* const otherMax = m_second.max + m_second.stride * pair.second;
     const hn::CappedTag<double, 4> d;
     // A vector has a value more than a corner, which after the last box may lie outside the caller's memory.
 #if HWY_MEM_OPS_MIGHT_FAULT
-    const bool isLast = std::max(pair.first, pair.second) + std::size_t{1} == m_boxes.size;
+    const bool isLast = pair.first + std::size_t{1} == m_first.size || pair.second + std::size_t{1} == m_second.size;
     if (hn::MaxLanes(d) < 4 || HWY_UNLIKELY(isLast)) return engine::areHit(min, max, otherMin, otherMax);
     const auto corner = [&](const double* values) HWY_ATTR { return hn::LoadU(d, values); };
 #else
@@ -57,7 +56,7 @@ class RowsTest {
     return size;
   }
 
-  /// Of the boxes of a word, as bits, those that a box hits.
+  /// Of the boxes of a word of one set, as bits, those that a box hits.
   [[nodiscard]] HWY_NOINLINE std::uint64_t hitsOf(std::uint64_t bits, std::uint32_t box,
                                                   std::uint32_t firstOfWord) const {
     std::uint64_t hits = bits;
@@ -69,7 +68,8 @@ class RowsTest {
   }
 
  private:
-  BoxRun<double> m_boxes;
+  BoxRun<double> m_first;
+  BoxRun<double> m_second;
 };
 
 }  // namespace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The exhaustive search of many small worlds: hits of each box as bits, and then pairs of bits. Vectors do the one,
-// other units of the processor the other, so that they overlap.
+// The exhaustive search of small worlds and of two small sets: hits of each box as bits, and then pairs of bits.
+// Vectors do the one, other units of the processor the other, so that they overlap.
 
 #if defined(ALLPAIRS_WORLDS_KERNEL_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef ALLPAIRS_WORLDS_KERNEL_INL_H
@@ -11,13 +11,12 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <type_traits>
 
-#include "kernels/Kernels.h"
+#include "kernels/BitsKernel-inl.h"
 #include "kernels/LaneTest-inl.h"
 #include "kernels/LoadKernel-inl.h"
 #include "kernels/NearestKernel-inl.h"
@@ -27,6 +26,17 @@
 HWY_BEFORE_NAMESPACE();
 namespace allpairs::engine::HWY_NAMESPACE {
 namespace {  // Each file that compiles the kernels has its own.
+
+/// The boxes that a row is paired with.
+enum class With : std::uint8_t {
+  Following,  ///< Of one set: those after it.
+  Preceding,  ///< Of one set: those before it.
+  SecondSet,  ///< All of the second set; the row is of the first one.
+  FirstSet,   ///< All of the first set; the row is of the second one.
+};
+
+constexpr bool areOneSet(With with) { return with == With::Following || with == With::Preceding; }
+constexpr bool isRowSecond(With with) { return with == With::Preceding || with == With::FirstSet; }
 
 /// The hits of up to a word of rows, in words by row, and then those of them that are certain.
 struct WorldHits {
@@ -49,25 +59,26 @@ HWY_INLINE Mask notAboveAlso(Mask also, Vector value, Vector other) {
 #endif
 }
 
-/// Boxes against each other: exact, and empty boxes hit nothing. Of float64 boxes as the nearest float32 a hit is
+/// Boxes against each other: exact, and empty boxes, which kMarksEmpty says are marked, hit nothing. Of float64 boxes as the nearest float32 a hit is
 /// certain if no bounds that are compared are equal.
 template <class T, bool kMarksCertain = false>
 class BoundsTest {
  public:
-  HWY_INLINE explicit BoundsTest(const WorldTile<T>& tile) : m_tile(tile) {}
+  HWY_INLINE BoundsTest(const WorldTile<T>& rows, const WorldTile<T>& columns) : m_rows(rows), m_columnsOf(columns) {}
 
   /// The boxes that rows are tested against.
   HWY_INLINE void setColumns(std::size_t place) {
     for (std::size_t vector = 0; vector < kVectors; ++vector) {
       const std::size_t from = place + vector * hn::Lanes(D());
-      for (std::size_t bound = 0; bound < 6; ++bound) m_columns[vector][bound] = hn::LoadU(D(), &m_tile[bound][from]);
+      for (std::size_t bound = 0; bound < 6; ++bound)
+        m_columns[vector][bound] = hn::LoadU(D(), &m_columnsOf[bound][from]);
     }
   }
 
   /// Stores the hits of a row as a byte, and those that are certain.
   HWY_INLINE void storeHits(std::size_t row, std::uint8_t* byte) const {
     hn::Vec<D> box[6];
-    for (std::size_t bound = 0; bound < 6; ++bound) box[bound] = hn::Set(D(), m_tile[bound][row]);
+    for (std::size_t bound = 0; bound < 6; ++bound) box[bound] = hn::Set(D(), m_rows[bound][row]);
     if constexpr (kVectors == 1) {
       hn::StoreMaskBits(D(), hits(box, m_columns[0]), byte);
       if constexpr (kMarksCertain) hn::StoreMaskBits(D(), certainHits(box, m_columns[0]), certainOf(byte));
@@ -92,6 +103,12 @@ class BoundsTest {
   static HWY_INLINE std::uint8_t* certainOf(std::uint8_t* byte) { return byte + offsetof(WorldHits, certain); }
 
   [[nodiscard]] static HWY_INLINE hn::Mask<D> hits(const hn::Vec<D>* box, const hn::Vec<D>* columns) {
+    if constexpr (kMarksEmpty && !kMarksCertain) {
+      const auto meetOn = [&](std::size_t axis) HWY_ATTR {
+        return hn::And(hn::Le(box[axis], columns[axis + 3]), hn::Le(columns[axis], box[axis + 3]));
+      };
+      return hn::And(hn::And(meetOn(0), meetOn(1)), meetOn(2));
+    }
     const auto from = [&](std::size_t axis) HWY_ATTR { return hn::Max(columns[axis], box[axis]); };
     const auto to = [&](std::size_t axis) HWY_ATTR { return hn::Min(columns[axis + 3], box[axis + 3]); };
     const auto xy = notAboveAlso<T>(hn::Le(from(0), to(0)), from(1), to(1));
@@ -105,7 +122,8 @@ class BoundsTest {
     return hn::And(hn::And(isBelow(0), isBelow(1)), isBelow(2));
   }
 
-  const WorldTile<T>& m_tile;
+  const WorldTile<T>& m_rows;
+  const WorldTile<T>& m_columnsOf;
   hn::Vec<D> m_columns[kVectors][6];
 };
 
@@ -114,10 +132,10 @@ class BoundsTest {
 template <bool kMany>
 class NearestTest : public BoundsTest<float, kMany> {
  public:
-  HWY_INLINE NearestTest(const WorldTile<float>& tile, const RowsTest& exact)
-      : BoundsTest<float, kMany>(tile), m_exact(exact) {}
+  HWY_INLINE NearestTest(const WorldTile<float>& rows, const WorldTile<float>& columns, const RowsTest& exact)
+      : BoundsTest<float, kMany>(rows, columns), m_exact(exact) {}
 
-  /// Of the hits of a box with those of a word the ones that overlap it.
+  /// Of the hits of a box with those of a word of one set the ones that overlap it.
   [[nodiscard]] HWY_INLINE std::uint64_t exactOf(std::uint64_t bits, std::uint64_t certain, std::uint32_t box,
                                                  std::uint32_t firstOfWord) const {
     const std::uint64_t doubts = bits & ~certain;
@@ -135,7 +153,7 @@ class NearestTest : public BoundsTest<float, kMany> {
 
 /// Boxes in double, apart as the contract says it: if a minimum exceeds the other's maximum plus the distance of the
 /// two. Where that sum is NaN they are not apart. Whether a box is empty is the caller's to say.
-template <bool kPreceding>
+template <With kWith>
 class WideTest {
  public:
   HWY_INLINE explicit WideTest(const WideWorld& world) : m_world(world) {}
@@ -174,27 +192,27 @@ class WideTest {
     if (!m_world.hasMargins) return given;
     const auto own = hn::Set(d, m_world.margins[row]);
     const auto other = hn::LoadU(d, &m_world.margins[place]);
-    return kPreceding ? hn::Add(hn::Add(given, other), own) : hn::Add(hn::Add(given, own), other);
+    return isRowSecond(kWith) ? hn::Add(hn::Add(given, other), own) : hn::Add(hn::Add(given, own), other);
   }
 
   const WideWorld& m_world;
   std::size_t m_place = 0;
 };
 
-/// The hits of the rows of a word from the one of `begin` on, by place, with the boxes that follow, or precede them.
-/// Hits with others are stored too, or what was there before, and so are those of a few rows before.
-template <bool kPreceding, class Test>
+/// The hits of the rows of a word from the one of `begin` on, by place, with the boxes that they are paired with, whose
+/// places are given. Hits with others are stored too, or what was there before, and so are those of a few rows before.
+template <With kWith, class Test>
 HWY_INLINE void testRows(Test test, const WorldPlaces& places, std::size_t begin, WorldHits& hits) {
   const std::size_t firstOfWord = begin / kWordBoxes * kWordBoxes;
   const std::size_t end = firstOfWord + kWordBoxes;
-  const std::size_t stop = kPreceding ? end : places.end;
+  const std::size_t stop = kWith == With::Preceding ? end : places.end;
   const std::size_t rowBytes = places.words * sizeof(std::uint64_t);
   auto* const words = reinterpret_cast<std::uint8_t*>(&hits);
-  for (std::size_t columns = (kPreceding ? places.first : begin) / kColumnsAtOnce * kColumnsAtOnce; columns < stop;
-       columns += kColumnsAtOnce) {
+  for (std::size_t columns = (kWith == With::Following ? begin : places.first) / kColumnsAtOnce * kColumnsAtOnce;
+       columns < stop; columns += kColumnsAtOnce) {
     test.setColumns(columns);
-    std::size_t row = (kPreceding ? std::max(begin, columns) : begin) / kRowsAtOnce * kRowsAtOnce;
-    const std::size_t endRow = kPreceding ? end : std::min(end, columns + kColumnsAtOnce);
+    std::size_t row = (kWith == With::Preceding ? std::max(begin, columns) : begin) / kRowsAtOnce * kRowsAtOnce;
+    const std::size_t endRow = kWith == With::Following ? std::min(end, columns + kColumnsAtOnce) : end;
     std::uint8_t* bytes = words + (row - firstOfWord) * rowBytes + columns / 8;
     for (; row < endRow; row += kRowsAtOnce, bytes += kRowsAtOnce * rowBytes) {
       test.storeHits(row, bytes);
@@ -205,64 +223,20 @@ HWY_INLINE void testRows(Test test, const WorldPlaces& places, std::size_t begin
   }
 }
 
-/// The position of the lowest bit; any number if there is none.
-HWY_INLINE std::uint32_t lowestBit(std::uint64_t bits) {
-#if HWY_TARGET <= HWY_AVX2 && HWY_ARCH_X86_64
-  return static_cast<std::uint32_t>(_tzcnt_u64(bits));
-#else
-  return static_cast<std::uint32_t>(std::countr_zero(bits | std::uint64_t{1} << 63));  // spares a test for no bits
-#endif
-}
-
-/// Writes a box's pairs with the lowest so many bits of a word, and clears these. A function, not a lambda: GCC does
-/// not inline a lambda that is called several times.
-template <bool kPreceding, std::size_t kCount>
-HWY_INLINE void writeLowest(std::uint64_t& bits, std::uint32_t box, std::uint32_t firstOfWord, Pair* to) {
-  if constexpr (kCount != 0) {
-    const std::uint32_t other = firstOfWord + lowestBit(bits);
-    // Without the fences, which cost no instruction, compilers combine both into one number, or several pairs into a
-    // vector, and either takes longer.
-    to->first = kPreceding ? other : box;
-    std::atomic_signal_fence(std::memory_order_acq_rel);
-    to->second = kPreceding ? box : other;
-    std::atomic_signal_fence(std::memory_order_acq_rel);
-    bits &= bits - 1;
-    writeLowest<kPreceding, kCount - 1>(bits, box, firstOfWord, to + 1);
-  }
-}
-
-/// Writes the pairs of a box with those of a word: the first few without asking whether there are as many, which would
-/// be mispredicted too often. Returns how many there are.
-template <bool kPreceding, std::size_t kUnasked>
-HWY_INLINE std::size_t writeBits(std::uint64_t bits, std::uint32_t box, std::uint32_t firstOfWord, Pair* pairs) {
-  // Of the others: where there are many, a tenth of the time of all (few_benchmark).
-  constexpr std::size_t kAtOnce = 4;
-  static_assert(std::max(kUnasked, kAtOnce) <= kVectorSlack);
-  const auto count = static_cast<std::size_t>(std::popcount(bits));
-  writeLowest<kPreceding, kUnasked>(bits, box, firstOfWord, pairs);
-  for (std::size_t i = kUnasked; i < count; i += kAtOnce) {
-    writeLowest<kPreceding, kAtOnce>(bits, box, firstOfWord, pairs + i);
-  }
-  return count;
-}
-
-/// The bits of a row's word that are other boxes.
-template <bool kPreceding>
+/// The bits of a row's word that are boxes that it is paired with.
+template <With kWith>
 HWY_INLINE std::uint64_t bitsOfRow(std::uint64_t bits, std::size_t word, std::size_t row, const WorldPlaces& places) {
-  if (kPreceding) {
-    if (word == row / kWordBoxes) bits &= ~(~std::uint64_t{0} << (row % kWordBoxes));
-    if (word == 0) bits &= ~std::uint64_t{0} << places.first;
-  } else if (word == row / kWordBoxes) {
-    bits &= ~std::uint64_t{1} << (row % kWordBoxes);
-  }
-  return bits;
+  if (kWith != With::Following && word == 0) bits &= ~std::uint64_t{0} << places.first;
+  if (!areOneSet(kWith) || word != row / kWordBoxes) return bits;
+  return bits & (kWith == With::Preceding ? lowBits(row % kWordBoxes) : ~std::uint64_t{1} << (row % kWordBoxes));
 }
 
-/// Which boxes may be paired with each of a world.
+/// Which boxes may be paired with each row.
 struct Partners {
   WorldPlaces places;
   const std::uint64_t* allowed = nullptr;  ///< Rows of words; null means all.
   const std::uint64_t* alive = nullptr;    ///< A bit for each place; null means all.
+  std::size_t firstRow = 0;                ///< Of two sets: the place of the first row.
 
   [[nodiscard]] HWY_INLINE std::uint64_t of(std::size_t row, std::size_t word) const {
     std::uint64_t bits = ~std::uint64_t{0};
@@ -273,29 +247,29 @@ struct Partners {
 };
 
 /// The hits of rows in [begin, end) as pairs, or counted only. With kUnasked pairs of a word that are written unasked.
-template <bool kPreceding, bool kCount, std::size_t kUnasked, class Test>
+template <With kWith, bool kCount, std::size_t kUnasked, class Test>
 HWY_INLINE void takeRows(const Test& test, const WorldHits& hits, std::size_t begin, std::size_t end,
                          const Partners partners, WorldSink& sink) {
-  static_assert(!kCount || !std::is_same_v<Test, NearestTest<false>>);
+  static_assert(!kCount || (areOneSet(kWith) && !std::is_same_v<Test, NearestTest<false>>));
   const WorldPlaces& places = partners.places;
   [[maybe_unused]] std::uint64_t doubts = std::is_same_v<Test, NearestTest<false>> ? 1 : 0;
   const std::uint64_t* words = hits.all.data() + begin % kWordBoxes * places.words;
   const std::uint64_t* certain = hits.certain.data() + begin % kWordBoxes * places.words;
   std::uint64_t size = sink.size;
   for (std::size_t row = begin; row < end; ++row, words += places.words, certain += places.words) {
-    const auto box = static_cast<std::uint32_t>(row - places.first);
-    const std::size_t firstWord = kPreceding ? 0 : row / kWordBoxes;
-    const std::size_t endWord = kPreceding ? row / kWordBoxes + 1 : places.words;
+    const auto box = static_cast<std::uint32_t>(row - (areOneSet(kWith) ? places.first : partners.firstRow));
+    const std::size_t firstWord = kWith == With::Following ? row / kWordBoxes : 0;
+    const std::size_t endWord = kWith == With::Preceding ? row / kWordBoxes + 1 : places.words;
     for (std::size_t word = firstWord; word < endWord; ++word) {
       const auto firstOfWord = static_cast<std::uint32_t>(word * kWordBoxes - places.first);
-      std::uint64_t bits = bitsOfRow<kPreceding>(words[word], word, row, places) & partners.of(row, word);
+      std::uint64_t bits = bitsOfRow<kWith>(words[word], word, row, places) & partners.of(row, word);
       if constexpr (kCount) {
         if constexpr (std::is_same_v<Test, NearestTest<true>>)
           bits = test.exactOf(bits, certain[word], box, firstOfWord);
         size += static_cast<std::size_t>(std::popcount(bits));
       } else {
         if constexpr (std::is_same_v<Test, NearestTest<true>>) doubts |= bits & ~certain[word];
-        size += writeBits<kPreceding, kUnasked>(bits, box, firstOfWord, sink.pairs + size);
+        size += writeBits<isRowSecond(kWith), kUnasked>(bits, box, firstOfWord, sink.pairs + size);
       }
     }
   }
@@ -305,83 +279,98 @@ HWY_INLINE void takeRows(const Test& test, const WorldHits& hits, std::size_t be
   sink.size = size;
 }
 
-/// The pairs of the rows of a word from the one of `begin` on. Of worlds of one word most rows have hits in it; of
-/// larger ones few words have more than two.
-template <bool kPreceding, bool kCount, class Test>
-HWY_INLINE void searchWord(const Test& test, std::size_t begin, const Partners& partners, WorldSink& sink) {
-  const WorldPlaces& places = partners.places;
-  WorldHits hits;
-  if (places.words == 1) {
-    const Partners inOne{{places.first, kWordBoxes, 1}, partners.allowed, partners.alive};
-    testRows<kPreceding>(test, inOne.places, places.first, hits);
-    takeRows<kPreceding, kCount, 4>(test, hits, places.first, kWordBoxes, inOne, sink);
-    return;
-  }
-  testRows<kPreceding>(test, places, begin, hits);
+/// The same of the rows of a word from the one of `begin` on, where there is room for them.
+template <With kWith, bool kCount, std::size_t kUnasked, class Test>
+HWY_INLINE void takeWord(const Test& test, const WorldHits& hits, std::size_t begin, const Partners& partners,
+                         WorldSink& sink) {
   const std::size_t end = WorldPlaces::endOfWord(begin);
   for (std::size_t row = begin; row < end;) {
-    const std::size_t next = std::min(end, row + sink.makeRoomForRows(places.boxes()));
-    takeRows<kPreceding, kCount, 2>(test, hits, row, next, partners, sink);
+    const std::size_t next = std::min(end, row + sink.makeRoomForRows(partners.places.boxes()));
+    takeRows<kWith, kCount, kUnasked>(test, hits, row, next, partners, sink);
     row = next;
   }
 }
 
+/// The pairs of the rows of a word from the one of `begin` on. With boxes of one word most rows have hits in it; with
+/// more few words have more than two.
+template <With kWith, bool kCount, class Test>
+HWY_INLINE void searchWord(const Test& test, std::size_t begin, const Partners& partners, WorldSink& sink) {
+  const WorldPlaces& places = partners.places;
+  WorldHits hits;
+  if (places.words == 1) {
+    const Partners inOne{{places.first, kWordBoxes, 1}, partners.allowed, partners.alive, partners.firstRow};
+    testRows<kWith>(test, inOne.places, begin, hits);
+    if constexpr (areOneSet(kWith)) {
+      takeRows<kWith, kCount, 4>(test, hits, begin, kWordBoxes, inOne, sink);
+    } else {
+      takeWord<kWith, kCount, 4>(test, hits, begin, inOne, sink);
+    }
+    return;
+  }
+  testRows<kWith>(test, places, begin, hits);
+  takeWord<kWith, kCount, 2>(test, hits, begin, partners, sink);
+}
+
 /// The same, for what is known of all worlds only now.
-template <bool kPreceding, class Test>
+template <With kWith, class Test>
 HWY_INLINE void searchSome(const Test& test, std::size_t begin, const Partners& partners, WorldSink& sink) {
-  sink.countOnly ? searchWord<kPreceding, true>(test, begin, partners, sink)
-                 : searchWord<kPreceding, false>(test, begin, partners, sink);
+  sink.countOnly ? searchWord<kWith, true>(test, begin, partners, sink)
+                 : searchWord<kWith, false>(test, begin, partners, sink);
 }
 
 /// The same of boxes as a test has them. Worlds without a filter whose pairs are wanted by their first boxes have a
 /// loop of their own. Pairs that are tested one by one are not counted only.
-template <bool kPreceding, bool kPlain, class Test>
+template <With kWith, bool kPlain, class Test>
 HWY_INLINE void searchRead(const Test& test, const WorldPlaces& places, std::size_t begin, WorldSink& sink) {
   if constexpr (kPlain) {
-    searchWord<kPreceding, false>(test, begin, {places}, sink);
+    searchWord<kWith, false>(test, begin, {places}, sink);
   } else if constexpr (std::is_same_v<Test, NearestTest<false>>) {
-    searchWord<kPreceding, false>(test, begin, {places, sink.allowed}, sink);
+    searchWord<kWith, false>(test, begin, {places, sink.allowed}, sink);
   } else {
-    searchSome<kPreceding>(test, begin, {places, sink.allowed}, sink);
+    searchSome<kWith>(test, begin, {places, sink.allowed}, sink);
   }
 }
 
 /// The same with a test that is made here. A function of its own: what is inlined into the loop over worlds compilers
 /// keep in memory, not in registers.
-template <class Test, bool kPreceding, bool kPlain, class... Of>
+template <class Test, With kWith, bool kPlain, class... Of>
 HWY_NOINLINE void searchBy(const WorldPlaces& places, std::size_t begin, WorldSink& sink, const Of&... of) {
-  searchRead<kPreceding, kPlain>(Test(of...), places, begin, sink);
+  searchRead<kWith, kPlain>(Test(of...), places, begin, sink);
 }
 
 /// All pairs of one world, of boxes as they are.
-template <bool kPreceding, bool kPlain, class T>
+template <With kWith, bool kPlain, class T>
 HWY_INLINE void searchExactly(const WorldsRun<T>& run, std::size_t first, const WorldPlaces& places, WorldSink& sink) {
   alignas(64) WorldTile<T> tile;
-  readWorld(run, first, places, tile);
+  readWorld(run.boxes, first, places, tile);
   if (places.words == 1) {
-    searchRead<kPreceding, kPlain>(BoundsTest<T>(tile), {places.first, kWordBoxes, 1}, places.first, sink);
+    searchRead<kWith, kPlain>(BoundsTest<T>(tile, tile), {places.first, kWordBoxes, 1}, places.first, sink);
     return;
   }
   for (std::size_t begin = places.first; begin < places.end; begin = WorldPlaces::endOfWord(begin))
-    searchBy<BoundsTest<T>, kPreceding, kPlain>(places, begin, sink, tile);
+    searchBy<BoundsTest<T>, kWith, kPlain>(places, begin, sink, tile, tile);
 }
 
+/// Whether so many of all pairs are tested sooner together than one by one: alone a pair takes as long as some 16 boxes
+/// together with AVX-512, some 32 with AVX2 (worlds_benchmark).
+HWY_INLINE bool areMany(std::uint64_t found, std::size_t pairs) { return found * 24 > pairs; }
+
 /// The same of boxes of float64 as the nearest float32.
-template <bool kPreceding, bool kPlain>
+template <With kWith, bool kPlain>
 HWY_INLINE void searchNearest(WorldsRun<double>& run, std::size_t first, const WorldPlaces& places, WorldSink& sink) {
   alignas(64) WorldTile<float> tile;
-  readWorld(run, first, places, tile);
-  const RowsTest exact(run.boxes.part(first, run.boxes.size));
+  readWorld(run.boxes, first, places, tile);
+  const BoxRun<double> boxes = run.boxes.part(first, run.boxes.size);
+  const RowsTest exact(boxes, boxes);
   for (std::size_t begin = places.first; begin < places.end; begin = WorldPlaces::endOfWord(begin)) {
     const std::uint64_t before = sink.found();
-    run.hadMany || sink.countOnly ? searchBy<NearestTest<true>, kPreceding, kPlain>(places, begin, sink, tile, exact)
-                                  : searchBy<NearestTest<false>, kPreceding, kPlain>(places, begin, sink, tile, exact);
-    // A pair tested alone takes as long as some 16 boxes together with AVX-512, some 32 with AVX2 (worlds_benchmark).
-    run.hadMany = (sink.found() - before) * 24 > places.pairsFrom(begin, kPreceding);
+    run.hadMany || sink.countOnly ? searchBy<NearestTest<true>, kWith, kPlain>(places, begin, sink, tile, tile, exact)
+                                  : searchBy<NearestTest<false>, kWith, kPlain>(places, begin, sink, tile, tile, exact);
+    run.hadMany = areMany(sink.found() - before, places.pairsFrom(begin, isRowSecond(kWith)));
   }
 }
 
-template <bool kPreceding, bool kPlain, class T>
+template <With kWith, bool kPlain, class T>
 HWY_INLINE void searchRun(WorldsRun<T>& run) {
   WorldSink sink = run.sink;
   for (; run.world < run.end; ++run.world) {
@@ -389,11 +378,10 @@ HWY_INLINE void searchRun(WorldsRun<T>& run) {
     const std::size_t boxes = run.worlds->begin(run.world + 1) - first;
     if (boxes > run.mostBoxes || !sink.takes(boxes)) break;
     prefetchAfter(run, first + boxes, boxes);
-    // Without vectors float32 takes no less time than float64.
-    if constexpr (std::is_same_v<T, float> || HWY_TARGET == HWY_SCALAR) {
-      searchExactly<kPreceding, kPlain>(run, first, WorldPlaces::of(boxes), sink);
+    if constexpr (std::is_same_v<T, LaneOf<T>>) {
+      searchExactly<kWith, kPlain>(run, first, WorldPlaces::of(boxes), sink);
     } else {
-      searchNearest<kPreceding, kPlain>(run, first, WorldPlaces::of(boxes), sink);
+      searchNearest<kWith, kPlain>(run, first, WorldPlaces::of(boxes), sink);
     }
     run.pairEnd[run.world] = sink.size;
     run.boxTests += WorldSink::pairsOf(boxes);
@@ -404,29 +392,64 @@ HWY_INLINE void searchRun(WorldsRun<T>& run) {
 template <class T>
 void searchWorlds(WorldsRun<T>& run) {
   if (run.sink.bySecond) {
-    searchRun<true, false>(run);
+    searchRun<With::Preceding, false>(run);
   } else if (run.sink.allowed != nullptr || run.sink.countOnly) {
-    searchRun<false, false>(run);
+    searchRun<With::Following, false>(run);
   } else {
-    searchRun<false, true>(run);
+    searchRun<With::Following, true>(run);
   }
 }
 
-template <bool kPreceding>
+template <With kWith>
 HWY_INLINE void searchWide(const WideWorld& world, WorldSink& sink) {
   const WorldPlaces places = WorldPlaces::of(world.boxes);
   const Partners partners{places, sink.allowed, world.alive.data()};
   for (std::size_t begin = places.first; begin < places.end; begin = WorldPlaces::endOfWord(begin)) {
     if (!world.hasMargins && world.distance == 0.0) {
-      searchSome<kPreceding>(BoundsTest<double>(world.tile), begin, partners, sink);
+      searchSome<kWith>(BoundsTest<double>(world.tile, world.tile), begin, partners, sink);
     } else {
-      searchSome<kPreceding>(WideTest<kPreceding>(world), begin, partners, sink);
+      searchSome<kWith>(WideTest<kWith>(world), begin, partners, sink);
     }
   }
 }
 
 void searchWideWorld(const WideWorld& world, WorldSink& sink) {
-  sink.bySecond ? searchWide<true>(world, sink) : searchWide<false>(world, sink);
+  sink.bySecond ? searchWide<With::Preceding>(world, sink) : searchWide<With::Following>(world, sink);
+}
+
+/// The pairs of the rows of a word from the one of `begin` on with all of another set; see searchBy().
+template <class Test, With kWith, class... Of>
+HWY_NOINLINE void searchRowsBy(const Partners& columns, std::size_t begin, WorldSink& sink, const Of&... of) {
+  searchWord<kWith, false>(Test(of...), begin, columns, sink);
+}
+
+template <With kWith, class T>
+HWY_INLINE void searchBetween(BetweenRun<T>& run) {
+  using Lane = LaneOf<T>;
+  const WorldPlaces rows = WorldPlaces::of(run.rows.size);
+  const WorldPlaces columns = WorldPlaces::of(run.columns.size);
+  alignas(64) WorldTile<Lane> rowTile;
+  alignas(64) WorldTile<Lane> columnTile;
+  readWorld(run.rows, 0, rows, rowTile);
+  readWorld(run.columns, 0, columns, columnTile);
+  const Partners partners{columns, nullptr, nullptr, rows.first};
+  bool hadMany = true;
+  for (std::size_t begin = rows.first; begin < rows.end; begin = WorldPlaces::endOfWord(begin)) {
+    if constexpr (std::is_same_v<T, Lane>) {
+      searchRowsBy<BoundsTest<Lane>, kWith>(partners, begin, run.sink, rowTile, columnTile);
+    } else {
+      const RowsTest exact = isRowSecond(kWith) ? RowsTest(run.columns, run.rows) : RowsTest(run.rows, run.columns);
+      const std::uint64_t before = run.sink.found();
+      hadMany ? searchRowsBy<NearestTest<true>, kWith>(partners, begin, run.sink, rowTile, columnTile, exact)
+              : searchRowsBy<NearestTest<false>, kWith>(partners, begin, run.sink, rowTile, columnTile, exact);
+      hadMany = areMany(run.sink.found() - before, (WorldPlaces::endOfWord(begin) - begin) * columns.boxes());
+    }
+  }
+}
+
+template <class T>
+void searchBetween(BetweenRun<T>& run) {
+  run.sink.bySecond ? searchBetween<With::FirstSet>(run) : searchBetween<With::SecondSet>(run);
 }
 
 }  // namespace

@@ -12,6 +12,8 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <limits>
+#include <type_traits>
 
 #include "hwy/cache_control.h"
 #include "kernels/LaneTest-inl.h"
@@ -29,6 +31,16 @@ constexpr std::size_t kColumnsAtOnce = 8;
 template <class T>
 using WorldTag = hn::CappedTag<T, kColumnsAtOnce>;
 using WorldFloats = hn::Vec<WorldTag<float>>;
+
+/// What boxes are tested as first: without vectors float32 takes no less time than float64.
+template <class T>
+using LaneOf = std::conditional_t<HWY_TARGET == HWY_SCALAR, T, float>;
+
+/// Whether empty boxes are marked when they are read, so that minima can be compared with the others' maxima: six
+/// comparisons, none of which waits for another. With AVX-512, where fewer comparisons are made at a time but combine
+/// masks as well, the greater minima are compared with the lesser maxima, which takes three and needs no marks
+/// (few_benchmark, worlds_benchmark).
+constexpr bool kMarksEmpty = HWY_TARGET > HWY_AVX3;
 
 /// Vectors that boxes are read by: float64 by no more than are stored as a vector of float32.
 template <class T>
@@ -139,38 +151,54 @@ HWY_INLINE void readCorners(const T* min, const T* max, std::size_t stride, Worl
   }
 }
 
-/// The same for a world's first vector of which so many places lie before all boxes in memory: the first box is put
-/// there.
+/// The same of fewer boxes than a vector has lanes, to the last of its places.
 template <class T, class Lane>
-HWY_INLINE void readFirstCorners(const WorldsRun<T>& run, std::size_t skipped, WorldTile<Lane>& tile, std::size_t at) {
-  const std::size_t stride = run.boxes.stride;
-  std::array<T, 6 * kColumnsAtOnce> copy;
-  T* const min = copy.data();
-  T* const max = stride == 3 ? min + 3 * kColumnsAtOnce : min + 3;
-  for (std::size_t i = 0; i < hn::Lanes(WorldTag<Lane>()); ++i) {
-    const std::size_t box = i < skipped ? 0 : i - skipped;
-    std::copy_n(run.boxes.min + box * stride, 3, min + i * stride);
-    std::copy_n(run.boxes.max + box * stride, 3, max + i * stride);
-  }
-  readCorners(min, max, stride, tile, at);
+HWY_INLINE void readFewCorners(const BoxRun<T>& boxes, WorldTile<Lane>& tile, std::size_t at) {
+  std::array<T, 6 * kColumnsAtOnce> copy{};
+  T* const max = copy.data() + (boxes.stride == 3 ? 3 * kColumnsAtOnce : 3);
+  const std::size_t first = (hn::Lanes(WorldTag<Lane>()) - boxes.size) * boxes.stride;
+  std::copy_n(boxes.min, boxes.size * boxes.stride, copy.data() + first);
+  if (boxes.stride == 3) std::copy_n(boxes.max, boxes.size * 3, max + first);
+  readCorners(copy.data(), max, boxes.stride, tile, at);
 }
 
-/// A world's boxes; what is in front of them in memory comes along.
+/// Makes the boxes that are empty hit nothing, whichever way they are compared: bounds that were rounded are finite.
 template <class T, class Lane>
-HWY_INLINE void readWorld(const WorldsRun<T>& run, std::size_t firstBox, const WorldPlaces& places,
+HWY_INLINE void markEmpty(WorldTile<Lane>& tile, std::size_t begin, std::size_t end) {
+  using Limits = std::numeric_limits<Lane>;
+  const WorldTag<Lane> d;
+  const auto mark = hn::Set(d, std::is_same_v<T, Lane> ? Limits::quiet_NaN() : Limits::infinity());
+  for (std::size_t at = begin; at < end; at += hn::Lanes(d)) {
+    const auto isEmptyOn = [&](std::size_t axis) HWY_ATTR {
+      return hn::Gt(hn::Load(d, &tile[axis][at]), hn::Load(d, &tile[axis + 3][at]));
+    };
+    const auto isEmpty = hn::Or(hn::Or(isEmptyOn(0), isEmptyOn(1)), isEmptyOn(2));
+    hn::Store(hn::IfThenElse(isEmpty, mark, hn::Load(d, &tile[0][at])), d, &tile[0][at]);
+  }
+}
+
+/// A world's boxes; what is in front of them in memory comes along, or if there is too little some of themselves.
+template <class T, class Lane>
+HWY_INLINE void readWorld(const BoxRun<T>& boxes, std::size_t firstBox, const WorldPlaces& places,
                           WorldTile<Lane>& tile) {
   const std::size_t lanes = hn::Lanes(WorldTag<Lane>());
-  std::size_t at = places.first / lanes * lanes;
-  const std::size_t skipped = places.first - at;
-  if (firstBox < skipped) {
-    // Boxes that precede the world are in the vector too, but not as many as it has room for.
-    readFirstCorners(run, skipped - firstBox, tile, at);
+  const auto read = [&](std::size_t box, std::size_t at) HWY_ATTR {
+    const std::size_t from = box * boxes.stride;
+    readCorners(boxes.min + from, boxes.max + from, boxes.stride, tile, at);
+  };
+  const std::size_t begin = places.first / lanes * lanes;
+  std::size_t at = begin;
+  if (firstBox < places.first - begin) {
+    if (boxes.size - firstBox < lanes) {
+      readFewCorners(boxes.part(firstBox, places.boxes()), tile, begin);
+    } else {
+      read(firstBox, begin);
+      read(firstBox, places.first);
+    }
     at += lanes;
   }
-  for (; at < places.end; at += lanes) {
-    const std::size_t from = (firstBox + at - places.first) * run.boxes.stride;
-    readCorners(run.boxes.min + from, run.boxes.max + from, run.boxes.stride, tile, at);
-  }
+  for (; at < places.end; at += lanes) read(firstBox + at - places.first, at);
+  if (kMarksEmpty) markEmpty<T>(tile, begin, places.end);
 }
 
 /// Prefetches, line by line, what is read a page later: the processor's own prefetching ends with a page.

@@ -139,6 +139,14 @@ struct WorldsRun {
   bool hadMany = false;
 };
 
+/// Two sets of at least one and at most kMostInWorld boxes each, every row against every column.
+template <class T>
+struct BetweenRun {
+  BoxRun<T> rows;
+  BoxRun<T> columns;
+  WorldSink sink;  ///< Pairs are in the order of the rows, which are the second boxes where it says bySecond.
+};
+
 /// One world in double, the exact test of boxes with margins and a distance.
 struct WideWorld {
   alignas(64) WorldTile<double> tile;

@@ -20,9 +20,9 @@
 namespace allpairs::engine {
 namespace {
 
-/// Up to so many pairs of two sets, and twice as many of one, a plain loop over them takes less time than arranging
-/// boxes for vectors (docs/decisions/0009, few_benchmark).
-constexpr std::size_t kTestedPairs = 24;
+/// Up to so many pairs of boxes a plain loop over them takes less time than arranging boxes for vectors
+/// (docs/decisions/0009, few_benchmark).
+constexpr std::size_t kTestedPairs = 40;
 
 /// Room for the hits that are buffered, more than those of one box and so few that they fit on the stack, and for what
 /// a vector writes behind them.
@@ -34,88 +34,91 @@ constexpr std::size_t kSinkBytes =
 
 using TakePairs = FunctionRef<void(std::span<const Pair>)>;
 
-/// Whether boxes lie in memory one after the other, of two sets as rows of six.
+/// Whether boxes lie in memory one after the other.
 template <class T>
 bool arePlain(const Sets& sets) {
-  return sets.one ? areRun<T>(sets.first) : areRows<T>(sets.first) && areRows<T>(sets.second);
+  return areRun<T>(sets.first) && (sets.one || areRun<T>(sets.second));
 }
 
 /// Tests the pairs one after the other; returns the number of hits.
 template <class T>
-std::size_t testAll(const BoxRun<T>& boxes, bool bySecond, Pair* pairs) {
+std::size_t testAmong(const BoxRun<T>& boxes, bool bySecond, Pair* pairs) {
   std::size_t found = 0;
   for (std::uint32_t i = 0; i < boxes.size; ++i) {
     for (std::uint32_t j = bySecond ? 0 : i + 1; j < (bySecond ? i : boxes.size); ++j) {
       pairs[found] = bySecond ? Pair{j, i} : Pair{i, j};
-      const BoxRun<T> a = boxes.part(i, 1);
-      const BoxRun<T> b = boxes.part(j, 1);
-      found += static_cast<std::size_t>(areHit(a.min, a.max, b.min, b.max));
+      found += static_cast<std::size_t>(areHit(boxes, i, boxes, j));
     }
   }
   return found;
 }
 
 template <class T>
-std::size_t testAll(const PlainSearch<T>& search, Pair* pairs) {
+std::size_t testBetween(const BetweenRun<T>& run, Pair* pairs) {
   std::size_t found = 0;
-  for (std::uint32_t i = 0; i < search.rowCount; ++i) {
-    for (std::uint32_t j = 0; j < search.columnCount; ++j) {
-      pairs[found] = search.rowSecond ? Pair{j, i} : Pair{i, j};
-      found += static_cast<std::size_t>(areHit(search.rows + 6 * std::size_t{i}, search.columns + 6 * std::size_t{j}));
+  for (std::uint32_t i = 0; i < run.rows.size; ++i) {
+    for (std::uint32_t j = 0; j < run.columns.size; ++j) {
+      pairs[found] = run.sink.bySecond ? Pair{j, i} : Pair{i, j};
+      found += static_cast<std::size_t>(areHit(run.rows, i, run.columns, j));
     }
   }
   return found;
 }
 
-/// The search of two sets of rows, by the index that pairs are ordered by. All boxes against a single one are in its
-/// order too if that is the row, which takes fewer tests of a vector.
+/// The search of two sets by the index that pairs are ordered by. All boxes against a single one are in its order too
+/// if that is the row, which takes fewer tests of a vector.
 template <class T>
-PlainSearch<T> plainSearch(const Sets& sets, Order order) {
-  const T* const first = cornersOf<T>(sets.first).min.data;
-  const T* const second = cornersOf<T>(sets.second).min.data;
-  const std::size_t firstSize = sets.first.size();
-  const std::size_t secondSize = sets.second.size();
-  if (secondSize == 1 || (order == Order::BySecond && firstSize != 1))
-    return {second, first, secondSize, firstSize, true};
-  return {first, second, firstSize, secondSize, false};
+BetweenRun<T> betweenRun(const Sets& sets, Order order) {
+  BetweenRun<T> run{runOf<T>(sets.first), runOf<T>(sets.second), {}};
+  run.sink.bySecond = run.columns.size == 1 || (order == Order::BySecond && run.rows.size != 1);
+  if (run.sink.bySecond) std::swap(run.rows, run.columns);
+  return run;
 }
 
-/// Calls take with the pairs of one set, which are those of a world, part by part.
+/// The search of one set as a world.
 template <class T>
-void findAmong(const Sets& sets, const Kernels& kernels, Order order, TakePairs take) {
-  static_assert(WorldSink::pairsOf(kWordBoxes) <= kPartSize && kMostFew <= kMostInWorld);
-  PairsOnStack<kPartSize + kVectorSlack> pairs;
-  const std::array<std::uint64_t, 2> begin{0, sets.first.size()};
-  const Worlds world(sets.first, begin);
-  std::uint64_t pairEnd = 0;
+WorldsRun<T> worldRun(const Sets& sets, Order order, const Worlds& world, std::uint64_t& pairEnd) {
   WorldsRun<T> run;
   run.boxes = runOf<T>(sets.first);
   run.worlds = &world;
   run.end = 1;
-  run.sink = {pairs.data(), kPartSize + kVectorSlack};
   run.sink.bySecond = order == Order::BySecond;
-  run.sink.emit = &take;
   run.hadMany = true;
   run.pairEnd = &pairEnd;
-  kernels.plain<T>().searchWorlds(run);
+  return run;
+}
+
+/// Calls take with the pairs that a search finds, part by part.
+template <class Run>
+void runPlain(Run& run, void (*search)(Run& run), TakePairs take) {
+  static_assert(WorldSink::pairsOf(kWordBoxes) <= kPartSize && kMostFew <= kMostInWorld);
+  PairsOnStack<kPartSize + kVectorSlack> pairs;
+  run.sink.pairs = pairs.data();
+  run.sink.capacity = kPartSize + kVectorSlack;
+  run.sink.emit = &take;
+  search(run);
   take({pairs.data(), run.sink.size});
 }
 
 template <class T>
-void findBetween(const Sets& sets, const Kernels& kernels, Order order, TakePairs take) {
-  static_assert(kPartSize >= kMostFew);
-  PairsOnStack<kPartSize + kVectorSlack> pairs;
-  PlainSearch<T> search = plainSearch<T>(sets, order);
-  search.room = kPartSize;
-  while (search.rowBegin < search.rowCount) take({pairs.data(), kernels.plain<T>().searchFew(search, pairs.data())});
+void findByKernel(const Sets& sets, const PlainKernels<T>& kernels, Order order, TakePairs take) {
+  if (!sets.one) {
+    BetweenRun<T> run = betweenRun<T>(sets, order);
+    return runPlain(run, kernels.searchBetween, take);
+  }
+  const std::array<std::uint64_t, 2> begin{0, sets.first.size()};
+  const Worlds world(sets.first, begin);
+  std::uint64_t pairEnd = 0;
+  WorldsRun<T> run = worldRun<T>(sets, order, world, pairEnd);
+  runPlain(run, kernels.searchWorlds, take);
 }
 
+/// A plain loop over so few pairs.
 template <class T>
 void testPlain(const Sets& sets, Order order, TakePairs take) {
-  PairsOnStack<2 * kTestedPairs> pairs;
-  const bool bySecond = order == Order::BySecond;
-  const std::size_t found = sets.one ? testAll(runOf<T>(sets.first), bySecond, pairs.data())
-                                     : testAll(plainSearch<T>(sets, order), pairs.data());
+  PairsOnStack<kTestedPairs> pairs;
+  const std::size_t found = sets.one ? testAmong(runOf<T>(sets.first), order == Order::BySecond, pairs.data())
+                                     : testBetween(betweenRun<T>(sets, order), pairs.data());
   take({pairs.data(), found});
 }
 
@@ -130,14 +133,14 @@ OverlapStatistics findPlain(const Sets& sets, const OverlapOptions& options, Ord
     if (!pairs.empty()) take(pairs);
   };
   // An instruction set that is asked for has to be there, and is used.
-  const bool isTested = statistics.boxTests <= (sets.one ? 2 : 1) * kTestedPairs && options.instructionSet.empty();
+  const bool isTested = statistics.boxTests <= kTestedPairs && options.instructionSet.empty();
   const Kernels* const kernels = isTested ? nullptr : &chooseKernels(options);
   if (statistics.boxTests == 0) return statistics;
   checkStop(options.stop);
   if (kernels == nullptr) {
     testPlain<T>(sets, order, taken);
   } else {
-    sets.one ? findAmong<T>(sets, *kernels, order, taken) : findBetween<T>(sets, *kernels, order, taken);
+    findByKernel<T>(sets, kernels->plain<T>(), order, taken);
   }
   return statistics;
 }

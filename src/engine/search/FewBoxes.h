@@ -20,7 +20,7 @@ namespace allpairs::engine {
 [[nodiscard]] bool areFew(const Sets& sets, const OverlapOptions& options);
 
 /// Calls take(pairs) with the pairs of a few boxes, in an order that may be another than that of the options, and in
-/// parts; an unordered search gives them by first box. Uses up to 80 KB of stack and no other memory: with so few
+/// parts; an unordered search gives them by first box. Uses up to 90 KB of stack and no other memory: with so few
 /// boxes, preparing a search would take longer than the search.
 ///
 /// Bad input: as for Search::find().

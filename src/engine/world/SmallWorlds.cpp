@@ -166,19 +166,23 @@ std::uint64_t SmallWorlds::runWide(std::span<const BoxId> ids, Worker& worker) c
 template <class T>
 void SmallWorlds::findChanged(std::span<const BoxId> changed, Worker& worker,
                               FunctionRef<void(std::span<Pair>)> take) const {
-  const T* const rows = cornersOf<T>(*m_boxes).min.data;
-  std::array<T, 6 * kWordBoxes> some;
-  worker.pairs.require(2 * kMostFew + kVectorSlack);
+  const BoxRun<T> all = runOf<T>(*m_boxes);
+  std::array<T, 6 * kWordBoxes> rows;
+  worker.pairs.require(kPartSize + kVectorSlack);
   worker.boxTests += changed.size() * m_boxes->size();
+  const auto taken = [&](std::span<const Pair> found) {
+    const std::span<Pair> pairs(worker.pairs.data(), found.size());
+    for (Pair& pair : pairs) pair.first = changed[pair.first];
+    take(pairs);
+  };
+  const FunctionRef<void(std::span<const Pair>)> emit(taken);
   for (; !changed.empty(); changed = changed.subspan(std::min(changed.size(), kWordBoxes))) {
-    PlainSearch<T> search{some.data(), rows, std::min(changed.size(), kWordBoxes), m_boxes->size()};
-    search.room = 2 * kMostFew;
-    for (std::size_t i = 0; i < search.rowCount; ++i) std::copy_n(rows + std::size_t{6} * changed[i], 6, &some[6 * i]);
-    while (search.rowBegin < search.rowCount) {
-      const std::span<Pair> pairs(worker.pairs.data(), m_kernels.plain<T>().searchFew(search, worker.pairs.data()));
-      for (Pair& pair : pairs) pair.first = changed[pair.first];
-      take(pairs);
-    }
+    const std::size_t size = std::min(changed.size(), kWordBoxes);
+    for (std::size_t i = 0; i < size; ++i) std::copy_n(all.min + std::size_t{6} * changed[i], 6, &rows[6 * i]);
+    BetweenRun<T> run{{rows.data(), rows.data() + 3, 6, size}, all, {worker.pairs.data(), kPartSize + kVectorSlack}};
+    run.sink.emit = &emit;
+    m_kernels.plain<T>().searchBetween(run);
+    taken({worker.pairs.data(), run.sink.size});
   }
 }
 
