@@ -16,6 +16,7 @@
 #include "allpairs/Error.h"
 #include "allpairs/Worlds.h"
 #include "support/Boxes.h"
+#include "support/Corners.h"
 #include "support/Numbers.h"
 #include "support/Oracle.h"
 #include "support/PoolExecutor.h"
@@ -84,6 +85,25 @@ TYPED_TEST(WorldsOf, EverySizeGiveTheDoubleLoopsPairs) {
     const WorldsScene<TypeParam> scene({size, 3, size}, static_cast<unsigned>(10 * size), 1.5F);
     const WorldPairs found = overlapsInWorlds(scene.worlds());
     for (std::size_t k = 0; k < 3; ++k) ASSERT_EQ(part(found, k), test::oracle(scene.world(k))) << size << " boxes";
+  }
+}
+
+/// Fewer boxes than a vector has lanes, before a world, in it and behind it.
+TYPED_TEST(WorldsOf, TinySizesGiveTheDoubleLoopsPairsWhateverSurroundsThem) {
+  constexpr std::size_t kTiny = 6;
+  for (std::size_t i = 0; i < kTiny * kTiny * kTiny; ++i) {
+    const WorldsScene<TypeParam> scene({i / kTiny / kTiny, i / kTiny % kTiny, i % kTiny}, static_cast<unsigned>(i),
+                                       1.5F);
+    const test::Corners<TypeParam> corners(scene.boxes);
+    for (const std::string_view instructionSet : instructionSets()) {
+      const WorldPairs inRows = overlapsInWorlds(scene.worlds(), {.instructionSet = instructionSet});
+      const WorldPairs inTwoArrays =
+          overlapsInWorlds({corners.view(), scene.begin}, {.instructionSet = instructionSet});
+      for (std::size_t k = 0; k < 3; ++k) {
+        ASSERT_EQ(part(inRows, k), test::oracle(scene.world(k))) << i << ", " << instructionSet;
+        ASSERT_EQ(part(inTwoArrays, k), test::oracle(scene.world(k))) << i << ", " << instructionSet;
+      }
+    }
   }
 }
 

@@ -18,12 +18,6 @@ template <class T>
   }
 }
 
-/// Whether boxes are of this precision and lie one after the other as rows of six.
-template <class T>
-[[nodiscard]] bool areRows(const BoxView& boxes) noexcept {
-  return boxes.isFloat64() == std::is_same_v<T, double> && cornersOf<T>(boxes).isPacked();
-}
-
 /// Whether boxes of this precision lie one after the other, as rows of six or of three.
 template <class T>
 [[nodiscard]] bool areRun(const BoxView& boxes) noexcept {

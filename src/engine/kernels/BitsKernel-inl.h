@@ -67,32 +67,6 @@ HWY_INLINE std::size_t writeBits(std::uint64_t bits, std::uint32_t box, std::uin
   return count;
 }
 
-/// Writes a vector of pairs, of which `ids` come first, or second.
-template <bool kIdsSecond>
-HWY_INLINE void storePairs(hn::Vec<IdTag> ids, hn::Vec<IdTag> others, Pair* pairs) {
-  const IdTag d;
-  auto* const to = reinterpret_cast<std::uint32_t*>(pairs);
-  if (kIdsSecond) {
-    hn::StoreInterleaved2(others, ids, d, to);
-  } else {
-    hn::StoreInterleaved2(ids, others, d, to);
-  }
-}
-
-/// Writes the pairs of a row with a word of which many bits are set; returns how many there are.
-template <bool kRowSecond>
-HWY_INLINE std::size_t writeManyBits(std::uint64_t bits, std::uint32_t row, std::uint32_t firstOfWord, Pair* pairs) {
-  const IdTag d;
-  const auto rows = hn::Set(d, row);
-  std::size_t size = 0;
-  for (std::size_t i = 0; i < kWordBoxes; i += hn::Lanes(d), bits >>= hn::Lanes(d)) {
-    const std::uint64_t some = bits & lowBits(hn::Lanes(d));
-    storePairs<kRowSecond>(rows, lanesOfBits(d, numbersFrom(firstOfWord + i), some), pairs + size);
-    size += static_cast<std::size_t>(std::popcount(some));
-  }
-  return size;
-}
-
 }  // namespace
 }  // namespace allpairs::engine::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

@@ -23,10 +23,6 @@ HWY_BEFORE_NAMESPACE();
 namespace allpairs::engine::HWY_NAMESPACE {
 namespace {  // Each file that compiles the kernels has its own.
 
-/// From so many pairs in a word on they are selected by vectors, which takes the same time for any number
-/// (few_benchmark).
-constexpr int kManyBits = 8;
-
 /// Whether no bound of box i lies beyond the box, and box i is not empty.
 template <class T>
 HWY_INLINE bool touches(const BoxRun<T>& run, std::size_t i, const std::array<T, 6>& box) {
@@ -149,7 +145,36 @@ void touchBoxes(const BoxRun<T>& run, const std::array<T, 6>& box, std::uint64_t
   for (; i < run.size; ++i) words[i / kWordBoxes] |= std::uint64_t{touches(run, i, box)} << (i % kWordBoxes);
 }
 
-/// Pairs of boxes with a single one.
+/// With more pairs in a word they are selected by vectors, which takes the same time for any number (few_benchmark).
+constexpr int kManyBits = 8;
+
+/// Writes a vector of pairs, of which `ids` come first, or second.
+template <bool kIdsSecond>
+HWY_INLINE void storePairs(hn::Vec<IdTag> ids, hn::Vec<IdTag> others, Pair* pairs) {
+  const IdTag d;
+  auto* const to = reinterpret_cast<std::uint32_t*>(pairs);
+  if (kIdsSecond) {
+    hn::StoreInterleaved2(others, ids, d, to);
+  } else {
+    hn::StoreInterleaved2(ids, others, d, to);
+  }
+}
+
+/// Writes the pairs of a row with a word of which many bits are set; returns how many there are.
+template <bool kRowSecond>
+HWY_INLINE std::size_t writeManyBits(std::uint64_t bits, std::uint32_t row, std::uint32_t firstOfWord, Pair* pairs) {
+  const IdTag d;
+  const auto rows = hn::Set(d, row);
+  std::size_t size = 0;
+  for (std::size_t i = 0; i < kWordBoxes; i += hn::Lanes(d), bits >>= hn::Lanes(d)) {
+    const std::uint64_t some = bits & lowBits(hn::Lanes(d));
+    storePairs<kRowSecond>(rows, lanesOfBits(d, numbersFrom(firstOfWord + i), some), pairs + size);
+    size += static_cast<std::size_t>(std::popcount(some));
+  }
+  return size;
+}
+
+/// Pairs of boxes with a single one, most of which have no more than two in a word.
 template <bool kOneSecond>
 HWY_INLINE std::size_t writeTouchingOne(const TouchedBoxes& touched, Pair* pairs) {
   std::size_t size = 0;

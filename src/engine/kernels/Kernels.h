@@ -192,8 +192,8 @@ struct BlockVisits {
   std::size_t size = 0;
 };
 
-/// The functions for boxes as they lie in memory. The searches round float64 to the nearest float32, and test what they
-/// find exactly.
+/// The functions for boxes as they lie in memory. The searches round float64 to the nearest float32, where there are
+/// vectors, and test what they find exactly.
 template <class T>
 struct PlainKernels {
   /// Writes, as bits of words, which boxes of a run are not empty and touch a box, which is not empty either.

@@ -22,14 +22,14 @@ using DoubleTag = hn::CappedTag<double, kFanOut>;
 using DoubleVector = hn::Vec<DoubleTag>;
 
 /// As many boxes as a vector has lanes, from rows of six that follow each other.
-template <class D>
-HWY_INLINE void loadRows(D d, const hn::TFromD<D>* rows, hn::Vec<D>* bound) {
+HWY_INLINE void loadRows(const float* rows, FloatVector* bound) {
+  const FloatTag d;
 #if HWY_TARGET == HWY_SCALAR
   for (std::size_t k = 0; k < 6; ++k) bound[k] = hn::LoadU(d, rows + k);
 #else
   // Three values make a corner; corners alternate between minimum and maximum.
-  hn::Vec<D> first[3];
-  hn::Vec<D> last[3];
+  FloatVector first[3];
+  FloatVector last[3];
   hn::LoadInterleaved3(d, rows, first[0], first[1], first[2]);
   hn::LoadInterleaved3(d, rows + 3 * hn::Lanes(d), last[0], last[1], last[2]);
   for (std::size_t axis = 0; axis < 3; ++axis) {

@@ -49,7 +49,7 @@ BlockRead readRun32(const float* rows, LaneBlock& block) {
   BlockRead result;
   for (std::size_t i = 0; i < kFanOut; i += hn::Lanes(FloatTag())) {
     FloatVector bound[6];
-    loadRows(FloatTag(), rows + 6 * i, bound);
+    loadRows(rows + 6 * i, bound);
     storeFinite(bound, block, i, result);
   }
   return result;

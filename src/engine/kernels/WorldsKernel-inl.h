@@ -59,8 +59,8 @@ HWY_INLINE Mask notAboveAlso(Mask also, Vector value, Vector other) {
 #endif
 }
 
-/// Boxes against each other: exact, and empty boxes, which kMarksEmpty says are marked, hit nothing. Of float64 boxes as the nearest float32 a hit is
-/// certain if no bounds that are compared are equal.
+/// Boxes against each other: exact. Empty ones hit nothing, if they are marked where kMarksEmpty says so. Of float64
+/// boxes as the nearest float32 a hit is certain if no bounds that are compared are equal.
 template <class T, bool kMarksCertain = false>
 class BoundsTest {
  public:
@@ -108,11 +108,12 @@ class BoundsTest {
         return hn::And(hn::Le(box[axis], columns[axis + 3]), hn::Le(columns[axis], box[axis + 3]));
       };
       return hn::And(hn::And(meetOn(0), meetOn(1)), meetOn(2));
+    } else {
+      const auto from = [&](std::size_t axis) HWY_ATTR { return hn::Max(columns[axis], box[axis]); };
+      const auto to = [&](std::size_t axis) HWY_ATTR { return hn::Min(columns[axis + 3], box[axis + 3]); };
+      const auto xy = notAboveAlso<T>(hn::Le(from(0), to(0)), from(1), to(1));
+      return notAboveAlso<T>(xy, from(2), to(2));
     }
-    const auto from = [&](std::size_t axis) HWY_ATTR { return hn::Max(columns[axis], box[axis]); };
-    const auto to = [&](std::size_t axis) HWY_ATTR { return hn::Min(columns[axis + 3], box[axis + 3]); };
-    const auto xy = notAboveAlso<T>(hn::Le(from(0), to(0)), from(1), to(1));
-    return notAboveAlso<T>(xy, from(2), to(2));
   }
 
   [[nodiscard]] static HWY_INLINE hn::Mask<D> certainHits(const hn::Vec<D>* box, const hn::Vec<D>* columns) {
@@ -234,9 +235,9 @@ HWY_INLINE std::uint64_t bitsOfRow(std::uint64_t bits, std::size_t word, std::si
 /// Which boxes may be paired with each row.
 struct Partners {
   WorldPlaces places;
+  std::size_t firstRow;                    ///< The place of the first row.
   const std::uint64_t* allowed = nullptr;  ///< Rows of words; null means all.
   const std::uint64_t* alive = nullptr;    ///< A bit for each place; null means all.
-  std::size_t firstRow = 0;                ///< Of two sets: the place of the first row.
 
   [[nodiscard]] HWY_INLINE std::uint64_t of(std::size_t row, std::size_t word) const {
     std::uint64_t bits = ~std::uint64_t{0};
@@ -257,7 +258,7 @@ HWY_INLINE void takeRows(const Test& test, const WorldHits& hits, std::size_t be
   const std::uint64_t* certain = hits.certain.data() + begin % kWordBoxes * places.words;
   std::uint64_t size = sink.size;
   for (std::size_t row = begin; row < end; ++row, words += places.words, certain += places.words) {
-    const auto box = static_cast<std::uint32_t>(row - (areOneSet(kWith) ? places.first : partners.firstRow));
+    const auto box = static_cast<std::uint32_t>(row - partners.firstRow);
     const std::size_t firstWord = kWith == With::Following ? row / kWordBoxes : 0;
     const std::size_t endWord = kWith == With::Preceding ? row / kWordBoxes + 1 : places.words;
     for (std::size_t word = firstWord; word < endWord; ++word) {
@@ -298,7 +299,7 @@ HWY_INLINE void searchWord(const Test& test, std::size_t begin, const Partners& 
   const WorldPlaces& places = partners.places;
   WorldHits hits;
   if (places.words == 1) {
-    const Partners inOne{{places.first, kWordBoxes, 1}, partners.allowed, partners.alive, partners.firstRow};
+    const Partners inOne{{places.first, kWordBoxes, 1}, partners.firstRow, partners.allowed, partners.alive};
     testRows<kWith>(test, inOne.places, begin, hits);
     if constexpr (areOneSet(kWith)) {
       takeRows<kWith, kCount, 4>(test, hits, begin, kWordBoxes, inOne, sink);
@@ -323,11 +324,11 @@ HWY_INLINE void searchSome(const Test& test, std::size_t begin, const Partners& 
 template <With kWith, bool kPlain, class Test>
 HWY_INLINE void searchRead(const Test& test, const WorldPlaces& places, std::size_t begin, WorldSink& sink) {
   if constexpr (kPlain) {
-    searchWord<kWith, false>(test, begin, {places}, sink);
+    searchWord<kWith, false>(test, begin, {places, places.first}, sink);
   } else if constexpr (std::is_same_v<Test, NearestTest<false>>) {
-    searchWord<kWith, false>(test, begin, {places, sink.allowed}, sink);
+    searchWord<kWith, false>(test, begin, {places, places.first, sink.allowed}, sink);
   } else {
-    searchSome<kWith>(test, begin, {places, sink.allowed}, sink);
+    searchSome<kWith>(test, begin, {places, places.first, sink.allowed}, sink);
   }
 }
 
@@ -403,7 +404,7 @@ void searchWorlds(WorldsRun<T>& run) {
 template <With kWith>
 HWY_INLINE void searchWide(const WideWorld& world, WorldSink& sink) {
   const WorldPlaces places = WorldPlaces::of(world.boxes);
-  const Partners partners{places, sink.allowed, world.alive.data()};
+  const Partners partners{places, places.first, sink.allowed, world.alive.data()};
   for (std::size_t begin = places.first; begin < places.end; begin = WorldPlaces::endOfWord(begin)) {
     if (!world.hasMargins && world.distance == 0.0) {
       searchSome<kWith>(BoundsTest<double>(world.tile, world.tile), begin, partners, sink);
@@ -432,7 +433,7 @@ HWY_INLINE void searchBetween(BetweenRun<T>& run) {
   alignas(64) WorldTile<Lane> columnTile;
   readWorld(run.rows, 0, rows, rowTile);
   readWorld(run.columns, 0, columns, columnTile);
-  const Partners partners{columns, nullptr, nullptr, rows.first};
+  const Partners partners{columns, rows.first};
   bool hadMany = true;
   for (std::size_t begin = rows.first; begin < rows.end; begin = WorldPlaces::endOfWord(begin)) {
     if constexpr (std::is_same_v<T, Lane>) {

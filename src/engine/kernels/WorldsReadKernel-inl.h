@@ -38,8 +38,8 @@ using LaneOf = std::conditional_t<HWY_TARGET == HWY_SCALAR, T, float>;
 
 /// Whether empty boxes are marked when they are read, so that minima can be compared with the others' maxima: six
 /// comparisons, none of which waits for another. With AVX-512, where fewer comparisons are made at a time but combine
-/// masks as well, the greater minima are compared with the lesser maxima, which takes three and needs no marks
-/// (few_benchmark, worlds_benchmark).
+/// masks as well, and everywhere where hits that are certain are told apart, the greater minima are compared with the
+/// lesser maxima, which takes three and needs no marks (few_benchmark, worlds_benchmark).
 constexpr bool kMarksEmpty = HWY_TARGET > HWY_AVX3;
 
 /// Vectors that boxes are read by: float64 by no more than are stored as a vector of float32.
@@ -151,7 +151,7 @@ HWY_INLINE void readCorners(const T* min, const T* max, std::size_t stride, Worl
   }
 }
 
-/// The same of fewer boxes than a vector has lanes, to the last of its places.
+/// The same of fewer boxes than a vector has lanes, to the last of its places; zeros to those in front.
 template <class T, class Lane>
 HWY_INLINE void readFewCorners(const BoxRun<T>& boxes, WorldTile<Lane>& tile, std::size_t at) {
   std::array<T, 6 * kColumnsAtOnce> copy{};
@@ -162,7 +162,8 @@ HWY_INLINE void readFewCorners(const BoxRun<T>& boxes, WorldTile<Lane>& tile, st
   readCorners(copy.data(), max, boxes.stride, tile, at);
 }
 
-/// Makes the boxes that are empty hit nothing, whichever way they are compared: bounds that were rounded are finite.
+/// Gives empty boxes a minimum of which no comparison with a maximum is true: infinity where bounds were rounded, and so
+/// are finite; else NaN, since a maximum may be infinite.
 template <class T, class Lane>
 HWY_INLINE void markEmpty(WorldTile<Lane>& tile, std::size_t begin, std::size_t end) {
   using Limits = std::numeric_limits<Lane>;
@@ -177,7 +178,8 @@ HWY_INLINE void markEmpty(WorldTile<Lane>& tile, std::size_t begin, std::size_t 
   }
 }
 
-/// A world's boxes; what is in front of them in memory comes along, or if there is too little some of themselves.
+/// A world's boxes. What is in front of them in memory comes along, or where there is too little what follows its first
+/// box.
 template <class T, class Lane>
 HWY_INLINE void readWorld(const BoxRun<T>& boxes, std::size_t firstBox, const WorldPlaces& places,
                           WorldTile<Lane>& tile) {

@@ -15,7 +15,7 @@
 namespace allpairs::engine {
 
 /// The most boxes of a world that the kernels for worlds take: no fewer than any instruction set tests exhaustively,
-/// and the boxes and the hits of 64 of them fit the first-level cache (worlds_benchmark).
+/// and the boxes and the hits of 64 of them, of one set, fit the first-level cache (worlds_benchmark).
 inline constexpr std::size_t kMostInWorld = 448;
 
 /// Boxes whose hits make a word of bits.
@@ -85,8 +85,8 @@ struct WorldSink {
   /// If set, the memory of `pairs`, which grows as needed.
   Buffer<Pair>* growing = nullptr;
 
-  /// If set, is given the pairs of a run of one world where there may be no room for more; the last ones stay. Room
-  /// for a part, and the slack, is enough then.
+  /// If set, is given the pairs of a run of one world, or of two sets, where there may be no room for more; the last
+  /// ones stay. Room for a part, and the slack, is enough then.
   const FunctionRef<void(std::span<const Pair>)>* emit = nullptr;
   std::uint64_t emitted = 0;
 
@@ -139,7 +139,8 @@ struct WorldsRun {
   bool hadMany = false;
 };
 
-/// Two sets of at least one and at most kMostInWorld boxes each, every row against every column.
+/// Two sets of at least one and at most kMostInWorld boxes each, every row against every column. The sink gives pairs
+/// out, and neither filters nor only counts them.
 template <class T>
 struct BetweenRun {
   BoxRun<T> rows;

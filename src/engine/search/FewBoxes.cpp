@@ -4,7 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <memory_resource>
+#include <span>
+#include <utility>
 
 #include "allpairs/StopFlag.h"
 #include "allpairs/Worlds.h"
