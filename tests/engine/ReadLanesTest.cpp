@@ -194,6 +194,26 @@ TEST_P(ReadLanes, OfFloat64AreRoundedOutwardWhereverTheyLie) {
   }
 }
 
+TEST_P(ReadLanes, OfFloat64AreTheNearestWhereThatIsAskedFor) {
+  AnyBoxes any(numbersOfDoubles());
+  for (int round = 0; round < 60; ++round) {
+    const SixteenBoxes boxes = any.next();
+    LaneBlock block;
+    Widening nearest;
+    nearest.toNearest = true;
+    const BlockRead read = m_kernels.readWide64(Arranged<double>(boxes, kArrangements[0]).places(), nearest, block);
+    bool exact = true;
+    for (std::size_t k = 0; k < 6 * kFanOut; ++k) {
+      const double bound = boxes[k / 6][k % 6];
+      const auto most = static_cast<double>(kLaneMax);
+      const auto expected = static_cast<float>(std::clamp(bound, -most, most));
+      ASSERT_EQ(block.bound[k % 6][k / 6], expected) << bound;
+      exact &= static_cast<double>(expected) == bound;
+    }
+    ASSERT_EQ(read.exact, exact);
+  }
+}
+
 TEST_P(ReadLanes, OneBoundThatIsNoLaneMakesABlockInexact) {
   SixteenBoxes boxes;
   boxes.fill({-1, -2, -3, 1, 2, 3});

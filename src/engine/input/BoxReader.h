@@ -46,7 +46,7 @@ inline void prefetchBox(const BoxView& boxes, std::uint32_t id) noexcept {
 }
 
 /// Reads the boxes of a set as float32 lanes that are never smaller than the boxes, with half the distance of the
-/// search and the box's own margin added on each side.
+/// search and the box's own margin added on each side; or where nothing is added as the nearest float32.
 ///
 /// Reports boxes that can overlap nothing, because they are empty or outside the region.
 class BoxReader {
@@ -64,6 +64,14 @@ class BoxReader {
   void setOrigin(const std::array<double, 3>& origin) noexcept;
 
   [[nodiscard]] const std::array<double, 3>& origin() const noexcept { return m_widening.origin; }
+
+  /// Whether a distance or margins are added to bounds.
+  [[nodiscard]] bool widens() const noexcept { return m_widening.widens; }
+
+  /// From now on lanes are the nearest float32, so that which of them overlap for certain takes less time to tell. They
+  /// may be smaller than the boxes, but keep the order of all bounds, those of the other set too, if it has such lanes.
+  void roundToNearest() noexcept { m_widening.toNearest = true; }
+  [[nodiscard]] bool roundsToNearest() const noexcept { return m_widening.toNearest; }
 
   [[nodiscard]] std::size_t size() const noexcept { return m_size; }
   [[nodiscard]] std::uint32_t idOf(std::size_t i) const noexcept {

@@ -54,6 +54,10 @@ struct Readers {
     Readers readers{{sets.first, options, kernels}, {sets.second, options, kernels}, sets.one};
     readers.first.setOrigin(originFor(sets.first, sets.second));
     readers.second.setOrigin(readers.first.origin());
+    if (!readers.first.widens() && !readers.second.widens()) {
+      readers.first.roundToNearest();
+      readers.second.roundToNearest();
+    }
     return readers;
   }
 

@@ -44,7 +44,7 @@ template <Density kDensity, class Emitter>
 HWY_INLINE void searchTile(const Query& q, std::uint32_t id, const LaneTile& tile, Range columns, Hits& hits) {
   Emitter emitter = Emitter::ofRow(hits, id);
   emitRow<kDensity>(q, tile, columns.begin, columns.end, emitter);
-  emitter.finish(hits, [&](std::size_t i) HWY_ATTR { return overlapping(inward(q, hits.slack), tile.bound, i); });
+  emitter.finish(hits, [&](std::size_t i) HWY_ATTR { return overlappingForCertain(q, hits.slack, tile.bound, i); });
 }
 
 /// One row against the columns [begin, end), tile by tile.
@@ -258,7 +258,7 @@ void listRow(const FlatSearch& search, std::size_t row) {
   bool areDoubtful = lists.tested == NeighborLists::Tested::All;
   if (lists.tested == NeighborLists::Tested::InDoubt) {
     HitCounter certain;
-    for (const Range& part : ranges) emitColumns(inward(q, lists.slack), search.columns, part, certain);
+    for (const Range& part : ranges) emitColumns(inward(q, lists.slack.most), search.columns, part, certain);
     areDoubtful = certain.size != size;
   }
   if (size != 0 && (areDoubtful || lists.filtered)) size = lists.select(lists, id, {to, size}, areDoubtful);

@@ -41,7 +41,7 @@ struct Hits {
   /// others.
   std::uint32_t* doubt = nullptr;
   std::size_t doubts = 0;
-  LaneSlack slack = kRoundedLanes;  ///< See inward() in LaneTest-inl.h.
+  LaneSlack slack;
 
   /// If set, hits are counted in `count` and not stored.
   bool countOnly = false;
@@ -80,8 +80,8 @@ struct NeighborLists {
 
   Columns kept = Columns::All;  ///< Which partners, by their ids.
   Tested tested = Tested::None;
-  LaneSlack slack = kRoundedLanes;  ///< Of what is not in doubt, as in Hits.
-  unsigned idBits = 0;              ///< Ids of partners have no more.
+  LaneSlack slack;      ///< Of what is not in doubt, as in Hits.
+  unsigned idBits = 0;  ///< Ids of partners have no more.
 
   std::uint32_t* partners = nullptr;
   std::size_t size = 0;

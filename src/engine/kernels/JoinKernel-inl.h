@@ -50,6 +50,13 @@ struct Leaf {
     const FloatMask xy = meetsAlso(x, q.minY, q.maxY, bound[1][v], bound[4][v]);
     return meetsAlso(xy, q.minZ, q.maxZ, bound[2][v], bound[5][v]);
   }
+
+  /// Those that do so whatever the rounding was.
+  [[nodiscard]] HWY_INLINE FloatMask overlappingForCertain(const Query& q, const LaneSlack& slack,
+                                                           std::size_t v) const {
+    if (!slack.areNearest) return overlappingWith(inward(q, slack.most), v);
+    return strictlyOverlapping(q, [&](std::size_t row) HWY_ATTR { return bound[row][v]; });
+  }
 };
 
 /// The pairs within a leaf, each once: a box against those after it.
@@ -69,8 +76,8 @@ HWY_INLINE void selfJoin(const Leaf& leaf, Hits& hits) {
     }
   }
   emitter.finish(hits, [&](std::size_t test) HWY_ATTR {
-    return leaf.overlappingWith(inward(broadcast(leaf.block.get(test / Leaf::kVectors)), hits.slack),
-                                test % Leaf::kVectors);
+    return leaf.overlappingForCertain(broadcast(leaf.block.get(test / Leaf::kVectors)), hits.slack,
+                                      test % Leaf::kVectors);
   });
 }
 
@@ -95,8 +102,8 @@ HWY_INLINE void crossJoin(const Leaf& leaf, const BvhView& other, std::span<cons
       }
     }
     emitter.finish(hits, [&](std::size_t test) HWY_ATTR {
-      return leaf.overlappingWith(inward(queryAt(places[begin + test / Leaf::kVectors]), hits.slack),
-                                  test % Leaf::kVectors);
+      return leaf.overlappingForCertain(queryAt(places[begin + test / Leaf::kVectors]), hits.slack,
+                                        test % Leaf::kVectors);
     });
   }
 }
@@ -397,10 +404,9 @@ class JoinRun {
   /// Which boxes of a leaf overlap the query whatever the rounding was.
   static std::uint32_t certainBits(const Leaf& leaf, const Query& q, const LaneSlack& slack) {
     const FloatTag d;
-    const Query certain = inward(q, slack);
     std::uint32_t bits = 0;
     for (std::size_t v = 0; v < Leaf::kVectors; ++v) {
-      bits |= allBitsOf(d, leaf.overlappingWith(certain, v)) << (v * hn::Lanes(d));
+      bits |= allBitsOf(d, leaf.overlappingForCertain(q, slack, v)) << (v * hn::Lanes(d));
     }
     return bits;
   }

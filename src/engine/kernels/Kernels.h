@@ -143,6 +143,7 @@ struct Widening {
   bool widens = false;             ///< By `half`, and by the margin of each box.
   double half = 0.0;
   const double* margins = nullptr;  ///< Of the sixteen boxes.
+  bool toNearest = false;           ///< Whether bounds that are not widened are rounded to the nearest, not outward.
 };
 
 /// Properties of sixteen boxes that were read.

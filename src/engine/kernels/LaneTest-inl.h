@@ -72,6 +72,24 @@ HWY_INLINE FloatMask overlapping(const Query& q, const Rows& bound, std::size_t 
   return meetsAlso(xy, q.minZ, q.maxZ, hn::LoadU(d, &bound[2][i]), hn::LoadU(d, &bound[5][i]));
 }
 
+/// The lanes of a mask in which one value is below another.
+HWY_INLINE FloatMask belowAlso(FloatMask also, FloatVector value, FloatVector other) {
+#if HWY_TARGET <= HWY_AVX3
+  return FloatMask{_mm512_mask_cmp_ps_mask(also.raw, value.raw, other.raw, _CMP_LT_OQ)};
+#else
+  return hn::And(also, hn::Lt(value, other));
+#endif
+}
+
+/// Of lanes that are the nearest float32 to bounds, those whose bounds overlap the query's for certain: a bound is below
+/// another if its lane is. bound(k) has the lanes of a row.
+template <class BoundOf>
+HWY_INLINE FloatMask strictlyOverlapping(const Query& q, const BoundOf& bound) {
+  FloatMask mask = belowAlso(hn::Lt(q.minX, bound(3)), bound(0), q.maxX);
+  mask = belowAlso(belowAlso(mask, q.minY, bound(4)), bound(1), q.maxY);
+  return belowAlso(belowAlso(mask, q.minZ, bound(5)), bound(2), q.maxZ);
+}
+
 /// The query with each bound moved inward by more than the rounding of both sides: what it overlaps is certain.
 ///
 /// A lane is within one unit in the last place of the bound that it was rounded from. If a minimum, increased by eight
@@ -79,7 +97,7 @@ HWY_INLINE FloatMask overlapping(const Query& q, const Rows& bound, std::size_t 
 /// of similar magnitude, a unit of one is at most two of the other; else they are far apart. Lanes that were widened
 /// may differ by more, because a sum may cancel: by less than `most`. Where that is 0 no lane was rounded, and none is
 /// moved.
-HWY_INLINE Query inward(const Query& q, const LaneSlack& most) {
+HWY_INLINE Query inward(const Query& q, const std::array<float, 3>& most) {
   const FloatTag d;
   const auto slack = [&](FloatVector value, float add) HWY_ATTR {
     return hn::MulAdd(hn::Abs(value), hn::Set(d, add == 0.0F ? 0.0F : kQuerySlack), hn::Set(d, add));
@@ -87,6 +105,13 @@ HWY_INLINE Query inward(const Query& q, const LaneSlack& most) {
   return {hn::Add(q.minX, slack(q.minX, most[0])), hn::Add(q.minY, slack(q.minY, most[1])),
           hn::Add(q.minZ, slack(q.minZ, most[2])), hn::Sub(q.maxX, slack(q.maxX, most[0])),
           hn::Sub(q.maxY, slack(q.maxY, most[1])), hn::Sub(q.maxZ, slack(q.maxZ, most[2]))};
+}
+
+/// The lanes of six rows that overlap the query whatever the rounding was.
+template <class Rows>
+HWY_INLINE FloatMask overlappingForCertain(const Query& q, const LaneSlack& slack, const Rows& bound, std::size_t i) {
+  if (!slack.areNearest) return overlapping(inward(q, slack.most), bound, i);
+  return strictlyOverlapping(q, [&](std::size_t k) HWY_ATTR { return hn::LoadU(FloatTag(), &bound[k][i]); });
 }
 
 /// The lanes of a mask as bits.

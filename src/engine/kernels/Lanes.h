@@ -170,10 +170,14 @@ struct BvhView {
 inline constexpr float kQuerySlack = 0x1p-20F;
 inline constexpr float kQueryTiny = 1e-36F;
 
-/// What the lanes of each axis may differ from what they were rounded from, beyond their rounding; 0 where they do not
-/// differ.
-using LaneSlack = std::array<float, 3>;
-inline constexpr LaneSlack kRoundedLanes{kQueryTiny, kQueryTiny, kQueryTiny};
+/// How lanes differ from what they were rounded from.
+struct LaneSlack {
+  /// Whether they are the nearest float32 on all axes: then bounds are in the order of lanes that are not equal.
+  bool areNearest = false;
+
+  /// What those of each axis may differ by, beyond their rounding; 0 where they do not differ.
+  std::array<float, 3> most{kQueryTiny, kQueryTiny, kQueryTiny};
+};
 
 /// A box that moves, or a ray, against sixteen boxes.
 struct SweepLanes {

@@ -87,16 +87,18 @@ HWY_INLINE hn::Vec<HalfFloatTag> demoteDown(hn::Vec<DoubleTag> value) {
 
 #endif
 
-/// float64 rounded down to float32 and kept within the finite ones, the lowest for a NaN; `same` stays true if that
-/// changed nothing.
-HWY_INLINE hn::Vec<HalfFloatTag> lower(hn::Vec<DoubleTag> value, bool& same) {
+/// float64 rounded down to float32, or to the nearest, and kept within the finite ones, the lowest for a NaN; `same`
+/// stays true if that changed nothing.
+template <bool kToNearest>
+HWY_INLINE hn::Vec<HalfFloatTag> rounded(hn::Vec<DoubleTag> value, bool& same) {
   const DoubleTag d;
   const auto most = hn::Set(d, static_cast<double>(kLaneMax));
   const auto least = hn::Neg(most);
   const auto above = hn::IfThenElse(hn::Gt(value, least), value, least);
-  const auto down = demoteDown(hn::Min(above, most));
-  same = same && hn::AllTrue(d, hn::Eq(hn::PromoteTo(d, down), value));
-  return down;
+  const auto inside = hn::Min(above, most);
+  const auto result = kToNearest ? hn::DemoteTo(HalfFloatTag(), inside) : demoteDown(inside);
+  same = same && hn::AllTrue(d, hn::Eq(hn::PromoteTo(d, result), value));
+  return result;
 }
 
 BlockRead readFloat32(const BoxPlaces<float>& places, LaneBlock& block) {
@@ -128,7 +130,7 @@ HWY_INLINE DoubleVector widened(DoubleVector bound, DoubleVector halfDistance, D
 /// Emptiness is tested before anything is added: rounded outward, an empty box may no longer be empty. A negative
 /// margin may invert a box, which can still overlap a larger one; with its bounds swapped it is no smaller.
 template <bool kWidens, class Load>
-HWY_INLINE BlockRead readDoubles(const Load& load, const Widening& widening, LaneBlock& block) {
+HWY_INLINE BlockRead readOutward(const Load& load, const Widening& widening, LaneBlock& block) {
   const DoubleTag d;
   const HalfFloatTag df;
   BlockRead result{.exact = !kWidens};
@@ -146,8 +148,8 @@ HWY_INLINE BlockRead readDoubles(const Load& load, const Widening& widening, Lan
         min = widened(min, half, margin);
         max = widened(max, half, margin);
       }
-      auto low = lower(hn::Sub(min, from), result.exact);
-      auto high = hn::Neg(lower(hn::Add(max, from), result.exact));
+      auto low = rounded<false>(hn::Sub(min, from), result.exact);
+      auto high = hn::Neg(rounded<false>(hn::Add(max, from), result.exact));
       if constexpr (kWidens) {
         const auto swapped = hn::Min(low, high);
         high = hn::Max(low, high);
@@ -160,9 +162,30 @@ HWY_INLINE BlockRead readDoubles(const Load& load, const Widening& widening, Lan
   return result;
 }
 
+/// The same to the nearest float32. Minima and maxima are rounded alike, so that the order of any two bounds is kept in
+/// whatever direction the processor rounds.
+template <class Load>
+HWY_INLINE BlockRead readNearest(const Load& load, const std::array<double, 3>& origin, LaneBlock& block) {
+  const DoubleTag d;
+  BlockRead result;
+  for (std::size_t i = 0; i < kFanOut; i += hn::Lanes(d)) {
+    DoubleVector bound[6];
+    load(i, bound);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      result.emptyLanes |= bitsOf(d, hn::Gt(bound[axis], bound[axis + 3])) << i;
+    }
+    for (std::size_t k = 0; k < 6; ++k) {
+      const auto lanes = rounded<true>(hn::Sub(bound[k], hn::Set(d, origin[k % 3])), result.exact);
+      hn::StoreU(lanes, HalfFloatTag(), &block.bound[k][i]);
+    }
+  }
+  return result;
+}
+
 template <class Load>
 HWY_INLINE BlockRead readDoubles(const Load& load, const Widening& widening, LaneBlock& block) {
-  return widening.widens ? readDoubles<true>(load, widening, block) : readDoubles<false>(load, widening, block);
+  if (widening.widens) return readOutward<true>(load, widening, block);
+  return widening.toNearest ? readNearest(load, widening.origin, block) : readOutward<false>(load, widening, block);
 }
 
 BlockRead readWide32(const BoxPlaces<float>& places, const Widening& widening, LaneBlock& block) {

@@ -65,12 +65,13 @@ class PairTest {
     findRows();
   }
 
-  /// The same for lanes that are bounds, relative to a point and widened by this test's distance and margins: the
-  /// kernels can tell which hits need the exact test. On a flat axis all boxes are the same point, which their lanes
-  /// are exactly unless they are widened: there nothing is in doubt.
-  void requireExactTestInDoubt(bool required, const std::array<double, 3>& origin,
+  /// The same for lanes that are bounds, relative to a point and widened by this test's distance and margins, or rounded
+  /// to the nearest: the kernels can tell which hits need the exact test. On a flat axis all boxes are the same point,
+  /// which their lanes are exactly unless they are widened: there nothing is in doubt.
+  void requireExactTestInDoubt(bool required, const std::array<double, 3>& origin, bool areNearest,
                                const std::array<bool, 3>& isFlat = {}) noexcept {
     m_exact = required;
+    m_areNearest = areNearest;
     m_slack = slackOf(origin);
     m_isFlat = isWidened() ? std::array<bool, 3>{} : isFlat;
     findRows();
@@ -81,11 +82,12 @@ class PairTest {
 
   [[nodiscard]] bool leavesDoubts() const noexcept { return m_exact && m_slack < kNever; }
 
-  /// More than the lanes of widened boxes may differ from what the exact test compares, beyond their rounding.
+  /// More than the lanes of widened boxes may differ from what the exact test compares, beyond their rounding. On a flat
+  /// axis lanes are equal, and what they were rounded from is too.
   [[nodiscard]] LaneSlack slack() const noexcept {
-    LaneSlack slack{m_slack, m_slack, m_slack};
+    LaneSlack slack{m_areNearest && m_isFlat == std::array<bool, 3>{}, {m_slack, m_slack, m_slack}};
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      if (m_isFlat[axis]) slack[axis] = 0.0F;
+      if (m_isFlat[axis]) slack.most[axis] = 0.0F;
     }
     return slack;
   }
@@ -241,6 +243,7 @@ class PairTest {
   bool m_exact = false;
   bool m_inAnyOrder = false;
   bool m_ascending = false;
+  bool m_areNearest = false;
   float m_slack = kNever;
   std::array<bool, 3> m_isFlat{};
   const double* m_firstRows = nullptr;  ///< Rows of 6, if bounds are all that matters.

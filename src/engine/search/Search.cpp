@@ -165,7 +165,7 @@ void Search::planFlat(const Readers& readers, Plan& plan) {
   flat.columns.tiles = m_columns.data();
   flat.rows.tiles = m_rows.data();
   const bool exact = readers.readAll(plan.order, flat);
-  plan.sink.test.requireExactTestInDoubt(!exact, readers.first.origin());
+  plan.sink.test.requireExactTestInDoubt(!exact, readers.first.origin(), readers.first.roundsToNearest());
   plan.sink.side = plan.order == Order::BySecond ? PairSide::RowSecond : PairSide::RowFirst;
   plan.job.units = flat.rowEnd;
 }
@@ -182,7 +182,7 @@ void Search::planJoin(const Readers& readers, Plan& plan) {
   BvhBuilder& second = readers.one ? m_first : m_second;
   const bool required = !m_first.exact() || !second.exact();
   plan.sink.test.requireExactTestInDoubt(
-      required, readers.first.origin(),
+      required, readers.first.origin(), readers.first.roundsToNearest(),
       required ? flatAxes(readers, m_first.levels().view(), second.levels().view()) : std::array<bool, 3>{});
 }
 
