@@ -206,6 +206,25 @@ TEST(Statistics, FlatScenesNeedHardlyAnyExactTests) {
   }
 }
 
+/// As those of triangles are.
+TEST(Statistics, BoxesThatAreFlatEachInAPlaneOfItsOwnNeedHardlyAnyExactTests) {
+  std::vector<Box> boxes = test::toDouble(test::randomBoxes(3000, 76, 2.0F));
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    const std::size_t axis = i % 3;
+    boxes[i].min[axis] += 1e-9;  // no float32
+    boxes[i].max[axis] = boxes[i].min[axis];
+  }
+  const std::vector<Pair> expected = test::oracle(boxes);
+  ASSERT_GT(expected.size(), 1000U);
+  for (const std::string_view name : instructionSets()) {
+    for (const Strategy strategy : test::kStrategies) {
+      OverlapSearch search({.strategy = strategy, .instructionSet = name});
+      EXPECT_EQ(test::toVector(search.find(boxes)), expected) << name;
+      EXPECT_LT(search.statistics().exactTests, 50U) << name;
+    }
+  }
+}
+
 TEST(Statistics, PlanesThatFloat32DoesNotTellApartAreNotOne) {
   const std::vector<Box> boxes = test::toDouble(test::randomBoxes(800, 75, 0.6F));
   const double inf = test::kInfinity;
