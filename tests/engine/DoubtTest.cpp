@@ -80,6 +80,38 @@ TEST_P(Doubt, OfTwoSetsIsDecidedWhereItIs) {
   }
 }
 
+/// Boxes of float32 on a grid far away, and of float64 that begin or end there, or a hair from it.
+TEST_P(Doubt, OfTwoPrecisionsFarFromTheOriginIsDecidedWhereItIs) {
+  std::mt19937 generator(4);
+  const double far = 1e7;
+  std::vector<BoxF> first(700);
+  std::vector<Box> second(650);
+  for (BoxF& box : first) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      box.min[axis] = static_cast<float>(far) + static_cast<float>(generator() % 8);
+      box.max[axis] = box.min[axis] + static_cast<float>(generator() % 3);
+    }
+  }
+  for (Box& box : second) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double min = far + static_cast<double>(generator() % 8);
+      const double max = min + static_cast<double>(generator() % 3);
+      box.min[axis] = generator() % 3 == 0 ? std::nextafter(min, 0.0) : min;
+      box.max[axis] = generator() % 3 == 0 ? std::nextafter(max, 2 * far) : max;
+    }
+  }
+  const std::vector<Pair> expected = test::oracleBetween(test::toDouble(first), second);
+  for (const Strategy strategy : kWays) {
+    ASSERT_EQ(overlaps(first, second, optionsFor(strategy)), expected);
+    OverlapSearch search(optionsFor(strategy));
+    std::vector<Pair> streamed;
+    search.stream(first, second,
+                  [&](std::span<const Pair> pairs) { streamed.insert(streamed.end(), pairs.begin(), pairs.end()); });
+    ASSERT_EQ(streamed, expected);
+    ASSERT_EQ(overlaps(second, first, optionsFor(strategy)).size(), expected.size());
+  }
+}
+
 struct Widened {
   std::vector<Box> boxes;
   std::vector<double> margins;

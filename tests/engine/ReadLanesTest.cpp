@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Sixteen boxes from the caller's memory as lanes: from wherever they lie, rounded outward, relative to an origin, and
-// widened.
+// Sixteen boxes from the caller's memory as lanes: from wherever they lie, rounded outward or to the nearest, relative to an
+// origin, and widened.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -194,23 +194,39 @@ TEST_P(ReadLanes, OfFloat64AreRoundedOutwardWhereverTheyLie) {
   }
 }
 
-TEST_P(ReadLanes, OfFloat64AreTheNearestWhereThatIsAskedFor) {
+/// The nearest float32 to sixteen boxes relative to an origin.
+void expectNearest(const SixteenBoxes& boxes, const Widening& nearest, const LaneBlock& block, const BlockRead& read) {
+  bool exact = true;
+  std::uint32_t empty = 0;
+  const auto most = static_cast<double>(kMost);
+  for (std::size_t i = 0; i < kFanOut; ++i) {
+    for (std::size_t k = 0; k < 6; ++k) {
+      const double bound = boxes[i][k] - nearest.origin[k % 3];
+      const auto expected = static_cast<float>(std::clamp(bound, -most, most));
+      ASSERT_EQ(block.bound[k][i], expected) << bound;
+      exact &= static_cast<double>(expected) == bound;
+      if (k < 3 && boxes[i][k] > boxes[i][k + 3]) empty |= 1U << i;
+    }
+  }
+  ASSERT_EQ(read.exact, exact);
+  ASSERT_EQ(read.emptyLanes, empty);
+}
+
+TEST_P(ReadLanes, OfFloat64AreTheNearestWhereThatIsAskedForWhereverTheyLie) {
   AnyBoxes any(numbersOfDoubles());
+  AnyBoxes anyFloats(numbersOfFloats());
   for (int round = 0; round < 60; ++round) {
     const SixteenBoxes boxes = any.next();
-    LaneBlock block;
-    Widening nearest;
+    const SixteenBoxes floats = anyFloats.next();
+    Widening nearest{{round % 2 == 0 ? 0.0 : 0.3, 0.0, round % 3 == 0 ? 0.0 : 1e7}};
     nearest.toNearest = true;
-    const BlockRead read = m_kernels.readWide64(Arranged<double>(boxes, kArrangements[0]).places(), nearest, block);
-    bool exact = true;
-    for (std::size_t k = 0; k < 6 * kFanOut; ++k) {
-      const double bound = boxes[k / 6][k % 6];
-      const auto most = static_cast<double>(kLaneMax);
-      const auto expected = static_cast<float>(std::clamp(bound, -most, most));
-      ASSERT_EQ(block.bound[k % 6][k / 6], expected) << bound;
-      exact &= static_cast<double>(expected) == bound;
+    for (const Arrangement& arrangement : kArrangements) {
+      LaneBlock block;
+      BlockRead read = m_kernels.readWide64(Arranged<double>(boxes, arrangement).places(), nearest, block);
+      ASSERT_NO_FATAL_FAILURE(expectNearest(boxes, nearest, block, read));
+      read = m_kernels.readWide32(Arranged<float>(floats, arrangement).places(), nearest, block);
+      ASSERT_NO_FATAL_FAILURE(expectNearest(floats, nearest, block, read));
     }
-    ASSERT_EQ(read.exact, exact);
   }
 }
 

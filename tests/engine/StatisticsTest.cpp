@@ -206,6 +206,22 @@ TEST(Statistics, FlatScenesNeedHardlyAnyExactTests) {
   }
 }
 
+/// Some have lanes a unit apart, which makes none of them a large one.
+TEST(Statistics, BoxesSmallerThanAUnitOfFloat32TakeNoMoreTestsThanOthers) {
+  const std::vector<Box> boxes = test::toDouble(test::randomBoxes(20000, 77, 0.0F));
+  const auto testsOf = [&](double side) {
+    std::vector<Box> cubes = boxes;
+    for (Box& cube : cubes) {
+      for (std::size_t axis = 0; axis < 3; ++axis) cube.min[axis] *= 1.0 + 1e-9;  // no float32
+      for (std::size_t axis = 0; axis < 3; ++axis) cube.max[axis] = cube.min[axis] + side;
+    }
+    OverlapSearch search({.strategy = Strategy::Bvh});
+    EXPECT_EQ(test::toVector(search.find(cubes)), test::oracle(cubes));
+    return search.statistics().groupTests;
+  };
+  EXPECT_LT(testsOf(2e-7), testsOf(1e-3) * 11 / 10);
+}
+
 /// As those of triangles are.
 TEST(Statistics, BoxesThatAreFlatEachInAPlaneOfItsOwnNeedHardlyAnyExactTests) {
   std::vector<Box> boxes = test::toDouble(test::randomBoxes(3000, 76, 2.0F));

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 #include <span>
 #include <utility>
 
@@ -114,7 +115,11 @@ CurveGrid fitTo(std::span<const LaneBox> sample, std::size_t boxes) {
   const auto cells = static_cast<float>(1U << grid.bitsPerAxis);
   if (width > 0.0F) grid.scale = std::min(cells / width, kLaneMax);
   std::transform(sample.begin(), sample.end(), values.begin(), longestSide);
-  grid.largeExtent = kLargeFactor * nth(values, values.size() / 2);
+  // Whether the lanes of tiny boxes are equal or a unit apart says nothing of the boxes.
+  float reach = 0.0F;
+  for (std::size_t axis = 0; axis < 3; ++axis) reach = std::max(reach, std::abs(grid.origin[axis]) + widths[axis]);
+  const float unit = std::min(reach, kLaneMax) * std::numeric_limits<float>::epsilon();
+  grid.largeExtent = kLargeFactor * std::max(nth(values, values.size() / 2), unit);
   return grid;
 }
 

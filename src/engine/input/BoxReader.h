@@ -71,7 +71,7 @@ class BoxReader {
   /// From now on lanes are the nearest float32, so that which of them overlap for certain takes less time to tell. They
   /// may be smaller than the boxes, but keep the order of all bounds, those of the other set too, if it has such lanes.
   void roundToNearest() noexcept { m_widening.toNearest = true; }
-  [[nodiscard]] bool roundsToNearest() const noexcept { return m_widening.toNearest; }
+  [[nodiscard]] bool roundsToNearest() const noexcept { return m_widening.toNearest && !m_widening.widens; }
 
   [[nodiscard]] std::size_t size() const noexcept { return m_size; }
   [[nodiscard]] std::uint32_t idOf(std::size_t i) const noexcept {

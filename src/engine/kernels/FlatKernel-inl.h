@@ -257,7 +257,7 @@ void listRow(const FlatSearch& search, std::size_t row) {
   std::size_t size = writer.size;
   bool areDoubtful = lists.tested == NeighborLists::Tested::All;
   if (lists.tested == NeighborLists::Tested::InDoubt) {
-    HitCounter certain;
+    HitCounter certain;  // By the test of lanes that were rounded either way.
     for (const Range& part : ranges) emitColumns(inward(q, lists.slack.most), search.columns, part, certain);
     areDoubtful = certain.size != size;
   }

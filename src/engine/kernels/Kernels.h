@@ -271,7 +271,7 @@ struct Kernels {
   /// Reads sixteen boxes from anywhere, as lanes that contain them.
   BlockRead (*readFloat32)(const BoxPlaces<float>& places, LaneBlock& block);
 
-  /// The same in double, widened or relative to an origin.
+  /// The same in double, widened, relative to an origin, or rounded to the nearest.
   BlockRead (*readWide32)(const BoxPlaces<float>& places, const Widening& widening, LaneBlock& block);
   BlockRead (*readWide64)(const BoxPlaces<double>& places, const Widening& widening, LaneBlock& block);
 

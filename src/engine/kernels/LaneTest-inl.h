@@ -92,7 +92,7 @@ HWY_INLINE FloatMask strictlyOverlapping(const Query& q, const BoundOf& bound) {
 
 /// The query with each bound moved inward by more than the rounding of both sides: what it overlaps is certain.
 ///
-/// A lane is within one unit in the last place of the bound that it was rounded from. If a minimum, increased by eight
+/// A lane is within one unit in the last place of the bound that it was rounded from, in whatever direction. If a minimum, increased by eight
 /// units of its own, does not exceed a maximum, then the bounds that they were rounded from do not either: if both are
 /// of similar magnitude, a unit of one is at most two of the other; else they are far apart. Lanes that were widened
 /// may differ by more, because a sum may cancel: by less than `most`. Where that is 0 no lane was rounded, and none is

@@ -43,7 +43,7 @@ inline constexpr float kLaneMax = std::numeric_limits<float>::max();
 /// The minimum, and negated the maximum, of lanes that overlap nothing.
 inline constexpr float kNever = std::numeric_limits<float>::infinity();
 
-/// A box in float32, rounded outward: minx miny minz maxx maxy maxz.
+/// A box in float32, rounded outward or to the nearest (BoxReader): minx miny minz maxx maxy maxz.
 struct LaneBox {
   std::array<float, 6> bound;
 };
@@ -166,7 +166,7 @@ struct BvhView {
 
 /// Added to, or subtracted from, a result in float32 so that it bounds the result in double: much more than its four
 /// roundings can amount to, and than underflow can lose. The exactness of results rests on it too: it is what the lanes
-/// that overlap for certain have to spare, at least eight units in the last place.
+/// that overlap for certain have to spare, at least eight units in the last place, unless they are the nearest float32.
 inline constexpr float kQuerySlack = 0x1p-20F;
 inline constexpr float kQueryTiny = 1e-36F;
 

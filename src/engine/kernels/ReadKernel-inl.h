@@ -87,14 +87,14 @@ HWY_INLINE hn::Vec<HalfFloatTag> demoteDown(hn::Vec<DoubleTag> value) {
 
 #endif
 
-/// float64 rounded down to float32, or to the nearest, and kept within the finite ones, the lowest for a NaN; `same`
-/// stays true if that changed nothing.
+/// float64 rounded down to float32, the lowest for a NaN, or to the nearest, which is for no NaN, and kept within the
+/// finite ones; `same` stays true if that changed nothing.
 template <bool kToNearest>
 HWY_INLINE hn::Vec<HalfFloatTag> rounded(hn::Vec<DoubleTag> value, bool& same) {
   const DoubleTag d;
   const auto most = hn::Set(d, static_cast<double>(kLaneMax));
   const auto least = hn::Neg(most);
-  const auto above = hn::IfThenElse(hn::Gt(value, least), value, least);
+  const auto above = kToNearest ? hn::Max(value, least) : hn::IfThenElse(hn::Gt(value, least), value, least);
   const auto inside = hn::Min(above, most);
   const auto result = kToNearest ? hn::DemoteTo(HalfFloatTag(), inside) : demoteDown(inside);
   same = same && hn::AllTrue(d, hn::Eq(hn::PromoteTo(d, result), value));
@@ -162,8 +162,8 @@ HWY_INLINE BlockRead readOutward(const Load& load, const Widening& widening, Lan
   return result;
 }
 
-/// The same to the nearest float32. Minima and maxima are rounded alike, so that the order of any two bounds is kept in
-/// whatever direction the processor rounds.
+/// The same of bounds that are not widened, rounded to the nearest float32. Minima and maxima are rounded alike, so that
+/// the order of any two is kept whatever the direction is in which threads round, if all do alike.
 template <class Load>
 HWY_INLINE BlockRead readNearest(const Load& load, const std::array<double, 3>& origin, LaneBlock& block) {
   const DoubleTag d;

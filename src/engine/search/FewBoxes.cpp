@@ -160,7 +160,7 @@ OverlapStatistics findInTiles(const Sets& sets, const OverlapOptions& options, O
   search.columns.tiles = &columns;
   search.rows.tiles = &rows;
   const bool exact = readers.readAll(order, search);
-  test.requireExactTestInDoubt(!exact, readers.first.origin(), readers.first.roundsToNearest());
+  test.requireExactTestInDoubt(!exact, readers.first);
   const auto emit = [&](std::span<const Pair> pairs, std::size_t) {
     take(pairs);
     return pairs.size();

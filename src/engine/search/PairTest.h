@@ -59,23 +59,17 @@ class PairTest {
   }
 
   /// Set once the lanes are known.
-  void requireExactTest(bool required) noexcept {
-    m_exact = required;
-    m_slack = kNever;
-    findRows();
+  void requireExactTest(bool required) noexcept { setLanes(required, false, kNever); }
+
+  /// The same for lanes as a reader makes them of bounds that are widened by this test's distance and margins: the
+  /// kernels can tell which hits need the exact test. On a flat axis all boxes are the same point, which their lanes are
+  /// exactly unless they are widened: there nothing is in doubt.
+  void requireExactTestInDoubt(bool required, const BoxReader& lanes, const std::array<bool, 3>& isFlat = {}) noexcept {
+    setLanes(required, lanes.roundsToNearest(), slackOf(lanes.origin()), isFlat);
   }
 
-  /// The same for lanes that are bounds, relative to a point and widened by this test's distance and margins, or rounded
-  /// to the nearest: the kernels can tell which hits need the exact test. On a flat axis all boxes are the same point,
-  /// which their lanes are exactly unless they are widened: there nothing is in doubt.
-  void requireExactTestInDoubt(bool required, const std::array<double, 3>& origin, bool areNearest,
-                               const std::array<bool, 3>& isFlat = {}) noexcept {
-    m_exact = required;
-    m_areNearest = areNearest;
-    m_slack = slackOf(origin);
-    m_isFlat = isWidened() ? std::array<bool, 3>{} : isFlat;
-    findRows();
-  }
+  /// The same for lanes that are rounded outward and relative to the origin.
+  void requireExactTestInDoubt(bool required) noexcept { setLanes(required, false, slackOf({})); }
 
   /// From now on it keeps only pairs with first < second: for a part of a set against the whole set.
   void requireAscending() noexcept { m_ascending = true; }
@@ -83,7 +77,7 @@ class PairTest {
   [[nodiscard]] bool leavesDoubts() const noexcept { return m_exact && m_slack < kNever; }
 
   /// More than the lanes of widened boxes may differ from what the exact test compares, beyond their rounding. On a flat
-  /// axis lanes are equal, and what they were rounded from is too.
+  /// axis no lane is below another, so that the test of the nearest float32 would leave every hit in doubt.
   [[nodiscard]] LaneSlack slack() const noexcept {
     LaneSlack slack{m_areNearest && m_isFlat == std::array<bool, 3>{}, {m_slack, m_slack, m_slack}};
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -181,6 +175,14 @@ class PairTest {
   }
 
  private:
+  void setLanes(bool required, bool areNearest, float slack, const std::array<bool, 3>& isFlat = {}) noexcept {
+    m_exact = required;
+    m_areNearest = areNearest;
+    m_slack = slack;
+    m_isFlat = isWidened() ? std::array<bool, 3>{} : isFlat;
+    findRows();
+  }
+
   [[nodiscard]] bool isWidened() const noexcept {
     return m_distance != 0.0 || m_first.boxes->hasMargins() || m_second.boxes->hasMargins();
   }

@@ -50,8 +50,8 @@ constexpr std::size_t kMostRowsPerBox = 4;
 std::size_t likelyOf(double sampled) noexcept { return static_cast<std::size_t>(std::min(1.25 * sampled, 0x1p24)) + 1; }
 
 /// The axes on which all boxes of two sets are the same point: those on which all lanes are, which is cheap to see, if
-/// the boxes are, which takes a pass over them. Equal lanes do not prove it: float32 may overflow, or the processor
-/// flush tiny numbers to zero.
+/// the boxes are, which takes a pass over them. Equal lanes do not prove it: rounding
+/// may have made them equal.
 std::array<bool, 3> flatAxes(const Readers& readers, const BvhView& first, const BvhView& second) {
   std::array<bool, 3> isFlat{};
   if (first.depth == 0 || second.depth == 0) return isFlat;
@@ -165,7 +165,7 @@ void Search::planFlat(const Readers& readers, Plan& plan) {
   flat.columns.tiles = m_columns.data();
   flat.rows.tiles = m_rows.data();
   const bool exact = readers.readAll(plan.order, flat);
-  plan.sink.test.requireExactTestInDoubt(!exact, readers.first.origin(), readers.first.roundsToNearest());
+  plan.sink.test.requireExactTestInDoubt(!exact, readers.first);
   plan.sink.side = plan.order == Order::BySecond ? PairSide::RowSecond : PairSide::RowFirst;
   plan.job.units = flat.rowEnd;
 }
@@ -182,7 +182,7 @@ void Search::planJoin(const Readers& readers, Plan& plan) {
   BvhBuilder& second = readers.one ? m_first : m_second;
   const bool required = !m_first.exact() || !second.exact();
   plan.sink.test.requireExactTestInDoubt(
-      required, readers.first.origin(), readers.first.roundsToNearest(),
+      required, readers.first,
       required ? flatAxes(readers, m_first.levels().view(), second.levels().view()) : std::array<bool, 3>{});
 }
 

@@ -82,8 +82,7 @@ bool Search::findRange(const Sets& sets, const OverlapOptions& options, const Bo
   m_first.build(range, *m_executor);
   Plan plan{sets, options.order, {PairTest::of(sets, options), m_kernels}};
   joinBoth(false, plan);
-  plan.sink.test.requireExactTestInDoubt(!m_first.exact() || !m_second.exact(), range.origin(),
-                                         range.roundsToNearest());
+  plan.sink.test.requireExactTestInDoubt(!m_first.exact() || !m_second.exact(), range);
   if (sets.one) plan.sink.test.requireAscending();
   plan.sink.side = options.order == Order::BySecond ? PairSide::RowSecond : PairSide::RowFirst;
   plan.sink.stop = options.stop;

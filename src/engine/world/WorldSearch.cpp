@@ -101,7 +101,7 @@ StepResult WorldSearch::step(BoxStore& store) {
 /// The test of pairs of this world. Lanes are widened by the distance, unless it is negative, when all hits are tested.
 PairTest WorldSearch::testOf(const BoxStore& store, double distance, bool exact) const {
   PairTest test(store.tested(), store.tested(), distance, m_options.accept);
-  test.requireExactTestInDoubt(!exact || distance != 0.0, {}, false);
+  test.requireExactTestInDoubt(!exact || distance != 0.0);
   return test;
 }
 
