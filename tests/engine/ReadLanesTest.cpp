@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Sixteen boxes from the caller's memory as lanes: from wherever they lie, rounded outward or to the nearest, relative to an
-// origin, and widened.
+// Sixteen boxes from the caller's memory as lanes: from wherever they lie, rounded outward or to the nearest, relative
+// to an origin, and widened.
 #include <gtest/gtest.h>
 
 #include <algorithm>

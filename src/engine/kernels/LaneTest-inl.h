@@ -81,8 +81,8 @@ HWY_INLINE FloatMask belowAlso(FloatMask also, FloatVector value, FloatVector ot
 #endif
 }
 
-/// Of lanes that are the nearest float32 to bounds, those whose bounds overlap the query's for certain: a bound is below
-/// another if its lane is. bound(k) has the lanes of a row.
+/// Of lanes that are the nearest float32 to bounds, those whose bounds overlap the query's for certain: a bound is
+/// below another if its lane is. bound(k) has the lanes of a row.
 template <class BoundOf>
 HWY_INLINE FloatMask strictlyOverlapping(const Query& q, const BoundOf& bound) {
   FloatMask mask = belowAlso(hn::Lt(q.minX, bound(3)), bound(0), q.maxX);
@@ -92,11 +92,11 @@ HWY_INLINE FloatMask strictlyOverlapping(const Query& q, const BoundOf& bound) {
 
 /// The query with each bound moved inward by more than the rounding of both sides: what it overlaps is certain.
 ///
-/// A lane is within one unit in the last place of the bound that it was rounded from, in whatever direction. If a minimum, increased by eight
-/// units of its own, does not exceed a maximum, then the bounds that they were rounded from do not either: if both are
-/// of similar magnitude, a unit of one is at most two of the other; else they are far apart. Lanes that were widened
-/// may differ by more, because a sum may cancel: by less than `most`. Where that is 0 no lane was rounded, and none is
-/// moved.
+/// A lane is within one unit in the last place of the bound that it was rounded from, in whatever direction. If a
+/// minimum, increased by eight units of its own, does not exceed a maximum, then the bounds that they were rounded from
+/// do not either: if both are of similar magnitude, a unit of one is at most two of the other; else they are far apart.
+/// Lanes that were widened may differ by more, because a sum may cancel: by less than `most`. Where that is 0 no lane
+/// was rounded, and none is moved.
 HWY_INLINE Query inward(const Query& q, const std::array<float, 3>& most) {
   const FloatTag d;
   const auto slack = [&](FloatVector value, float add) HWY_ATTR {

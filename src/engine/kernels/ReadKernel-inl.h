@@ -162,8 +162,8 @@ HWY_INLINE BlockRead readOutward(const Load& load, const Widening& widening, Lan
   return result;
 }
 
-/// The same of bounds that are not widened, rounded to the nearest float32. Minima and maxima are rounded alike, so that
-/// the order of any two is kept whatever the direction is in which threads round, if all do alike.
+/// The same of bounds that are not widened, rounded to the nearest float32. Minima and maxima are rounded alike, so
+/// that the order of any two is kept whatever the direction is in which threads round, if all do alike.
 template <class Load>
 HWY_INLINE BlockRead readNearest(const Load& load, const std::array<double, 3>& origin, LaneBlock& block) {
   const DoubleTag d;

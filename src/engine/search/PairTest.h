@@ -62,8 +62,8 @@ class PairTest {
   void requireExactTest(bool required) noexcept { setLanes(required, false, kNever); }
 
   /// The same for lanes as a reader makes them of bounds that are widened by this test's distance and margins: the
-  /// kernels can tell which hits need the exact test. On a flat axis all boxes are the same point, which their lanes are
-  /// exactly unless they are widened: there nothing is in doubt.
+  /// kernels can tell which hits need the exact test. On a flat axis all boxes are the same point, which their lanes
+  /// are exactly unless they are widened: there nothing is in doubt.
   void requireExactTestInDoubt(bool required, const BoxReader& lanes, const std::array<bool, 3>& isFlat = {}) noexcept {
     setLanes(required, lanes.roundsToNearest(), slackOf(lanes.origin()), isFlat);
   }
@@ -76,8 +76,8 @@ class PairTest {
 
   [[nodiscard]] bool leavesDoubts() const noexcept { return m_exact && m_slack < kNever; }
 
-  /// More than the lanes of widened boxes may differ from what the exact test compares, beyond their rounding. On a flat
-  /// axis no lane is below another, so that the test of the nearest float32 would leave every hit in doubt.
+  /// More than the lanes of widened boxes may differ from what the exact test compares, beyond their rounding. On a
+  /// flat axis no lane is below another, so that the test of the nearest float32 would leave every hit in doubt.
   [[nodiscard]] LaneSlack slack() const noexcept {
     LaneSlack slack{m_areNearest && m_isFlat == std::array<bool, 3>{}, {m_slack, m_slack, m_slack}};
     for (std::size_t axis = 0; axis < 3; ++axis) {
