@@ -97,12 +97,14 @@ CurveGrid fitTo(std::span<const LaneBox> sample, std::size_t boxes) {
   std::array<float, kMostSamples> memory;
   const std::span<float> values = std::span(memory).first(sample.size());
   std::array<float, 3> widths;
+  float reach = 0.0F;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     std::transform(sample.begin(), sample.end(), values.begin(),
                    [=](const LaneBox& box) { return centreOf(box, axis); });
     const auto [least, range] = rangeOf(values);
     grid.origin[axis] = least;
     widths[axis] = range;
+    reach = std::max(reach, std::abs(least) + range);
   }
   const auto isNarrower = [&](std::uint32_t a, std::uint32_t b) {
     return widths[a] < widths[b] || (widths[a] == widths[b] && a < b);
@@ -116,8 +118,6 @@ CurveGrid fitTo(std::span<const LaneBox> sample, std::size_t boxes) {
   if (width > 0.0F) grid.scale = std::min(cells / width, kLaneMax);
   std::transform(sample.begin(), sample.end(), values.begin(), longestSide);
   // Whether the lanes of tiny boxes are equal or a unit apart says nothing of the boxes.
-  float reach = 0.0F;
-  for (std::size_t axis = 0; axis < 3; ++axis) reach = std::max(reach, std::abs(grid.origin[axis]) + widths[axis]);
   const float unit = std::min(reach, kLaneMax) * std::numeric_limits<float>::epsilon();
   grid.largeExtent = kLargeFactor * std::max(nth(values, values.size() / 2), unit);
   return grid;

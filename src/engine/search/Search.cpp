@@ -50,8 +50,7 @@ constexpr std::size_t kMostRowsPerBox = 4;
 std::size_t likelyOf(double sampled) noexcept { return static_cast<std::size_t>(std::min(1.25 * sampled, 0x1p24)) + 1; }
 
 /// The axes on which all boxes of two sets are the same point: those on which all lanes are, which is cheap to see, if
-/// the boxes are, which takes a pass over them. Equal lanes do not prove it: rounding
-/// may have made them equal.
+/// the boxes are, which takes a pass over them. Equal lanes do not prove it: rounding may have made them equal.
 std::array<bool, 3> flatAxes(const Readers& readers, const BvhView& first, const BvhView& second) {
   std::array<bool, 3> isFlat{};
   if (first.depth == 0 || second.depth == 0) return isFlat;
