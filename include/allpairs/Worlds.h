@@ -130,6 +130,7 @@ class WorldsSearch {
   [[nodiscard]] WorldPairsView find(const Worlds& worlds, const BoxView& shared);
 
   /// Where each world's pairs begin in the result of find(), without storing the pairs. The last value is their number.
+  /// Valid like the result of find(); list() takes it.
   [[nodiscard]] Span<const std::uint64_t> count(const Worlds& worlds);
   [[nodiscard]] Span<const std::uint64_t> count(const Worlds& worlds, const BoxView& shared);
 

@@ -188,6 +188,35 @@ TEST(WorldsInput, OfUnequalSizeIgnorePairsInAnyOrder) {
   EXPECT_EQ(overlapsInWorlds(worlds).pairs, wanted);
 }
 
+TEST(WorldsInput, ListTakesTheOffsetsThatTheSameObjectHasCounted) {
+  const WorldsScene<float> scene(std::vector<std::size_t>(1000, 64), 3);
+  const Worlds worlds = scene.worlds();
+  const StopFlag stop;
+  OverlapOptions options;
+  options.stop = &stop;  // so that worlds are searched some at a time
+  WorldsSearch search(options);
+  const Span<const std::uint64_t> begin = search.count(worlds);
+  std::vector<Pair> listed(begin.back());
+  search.list(worlds, begin, listed);
+  EXPECT_EQ(listed, overlapsInWorlds(worlds).pairs);
+  const WorldsScene<float> ground({30}, 47);
+  const Span<const std::uint64_t> sharedBegin = search.count(worlds, ground.boxes);
+  listed.resize(sharedBegin.back());
+  search.list(worlds, ground.boxes, sharedBegin, listed);
+  EXPECT_EQ(listed, overlapsInWorlds(worlds, ground.boxes).pairs);
+}
+
+TEST(WorldsInput, ListRefusesTheOffsetsThatTheSameObjectHasCountedOfOtherWorlds) {
+  const WorldsScene<float> scene({30, 40}, 3);
+  const WorldsScene<float> other({40, 30}, 5);
+  const WorldsScene<float> ground({30}, 47);
+  WorldsSearch search;
+  std::vector<Pair> memory(10'000);
+  EXPECT_THROW(search.list(other.worlds(), search.count(scene.worlds()), memory), InvalidArgument);
+  const Span<const std::uint64_t> begin = search.count(scene.worlds(), ground.boxes);
+  EXPECT_THROW(search.list(other.worlds(), ground.boxes, begin, memory), InvalidArgument);
+}
+
 TEST(WorldsInput, ADistanceOrARegionThatIsNoneIsRefusedHoweverSmallTheWorlds) {
   const std::vector<BoxF> boxes(4);
   const Worlds worlds = Worlds::ofEqualSize(boxes, 2);

@@ -72,11 +72,12 @@ void Worlds::setIgnoredPairs(Span<const Pair> pairs) {
 }
 
 struct WorldsSearch::State {
-  explicit State(std::pmr::memory_resource* memory) : own(memory), shared(memory) {}
+  explicit State(std::pmr::memory_resource* memory) : own(memory), shared(memory), given(memory) {}
 
   OverlapOptions options;
   engine::WorldsSearcher own;
   engine::SharedSearcher shared;
+  std::pmr::vector<std::uint64_t> given;  ///< Copied: offsets that count() gave are overwritten by the next search.
   OverlapStatistics statistics;
   engine::InUse inUse;
 
@@ -164,13 +165,17 @@ void writeAt(const Worlds& worlds, std::span<const std::uint64_t> begin, std::sp
 
 void WorldsSearch::list(const Worlds& worlds, Span<const std::uint64_t> begin, Span<Pair> pairs) {
   State& state = this->state();
-  writeAt(worlds, begin, pairs,
-          [&] { return state.run(state.own, [&] { return state.own.list(worlds, state.options, begin, pairs); }); });
+  state.given.assign(begin.begin(), begin.end());
+  writeAt(worlds, state.given, pairs, [&] {
+    return state.run(state.own, [&] { return state.own.list(worlds, state.options, state.given, pairs); });
+  });
 }
 
 void WorldsSearch::list(const Worlds& worlds, const BoxView& shared, Span<const std::uint64_t> begin,
                         Span<Pair> pairs) {
-  writeAt(worlds, begin, pairs, [&] {
+  State& state = this->state();
+  state.given.assign(begin.begin(), begin.end());
+  writeAt(worlds, state.given, pairs, [&] {
     const WorldPairsView found = find(worlds, shared);
     std::copy_n(found.pairs.begin(), std::min(found.pairs.size(), pairs.size()), pairs.begin());
     return found.begin;
