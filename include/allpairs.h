@@ -9,8 +9,8 @@
 //
 // A call that fails, because memory is exhausted or a callback stopped it, leaves its handle as it was and usable: the
 // next allpairs_world_step() reports what has changed since the last one that succeeded. Only what an allpairs_search
-// found before is lost by a search that fails, as by one that succeeds. A callback may use other handles, and what takes
-// a const one; else using the handle that is calling it, of allpairs_world_find_between() both, is an
+// found before is lost by a search that fails, as by one that succeeds. A callback may use other handles, and what
+// takes a const one; else using the handle that is calling it, of allpairs_world_find_between() both, is an
 // ALLPAIRS_INVALID_ARGUMENT, and it must not destroy that handle.
 //
 // What a failed call would have written, a handle or a structure, is as it was, except the counts of memory of the
@@ -584,7 +584,7 @@ ALLPAIRS_C_API allpairs_status allpairs_world_sweep_first(allpairs_world* world,
 ALLPAIRS_C_API allpairs_status allpairs_world_sweep_all(allpairs_world* world, const allpairs_sweep* sweep,
                                                         const allpairs_query_filter* filter, allpairs_hits* hits);
 
-/// A box and its Euclidean distance from a point; 0 if the point is in the box.
+/// A box and its Euclidean distance from a point or a box; 0 if the point is in it, or the two overlap.
 typedef struct allpairs_neighbor {
   uint32_t id;
   double distance;
@@ -674,6 +674,12 @@ ALLPAIRS_C_API allpairs_status allpairs_world_find_nearest_many(allpairs_world* 
                                                                 const allpairs_nearest_many* nearest,
                                                                 const allpairs_query_filter* filter,
                                                                 allpairs_neighbor_lists* lists);
+
+/// The `count` boxes nearest to each box of a set, or all if there are fewer; an empty box is near nothing. A set with
+/// margins is an ALLPAIRS_INVALID_ARGUMENT.
+ALLPAIRS_C_API allpairs_status allpairs_world_find_nearest_to_boxes(allpairs_world* world, const allpairs_set* boxes,
+                                                                    size_t count, const allpairs_query_filter* filter,
+                                                                    allpairs_neighbor_lists* lists);
 
 /// All pairs of a box of `world` (first) and one of `other` that overlap at the mean of the distances of the two;
 /// ordered, and valid until the next such query of `world`.

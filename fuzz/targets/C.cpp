@@ -416,6 +416,8 @@ class Calls {
     for (const allpairs_ray& each : rays) points.insert(points.end(), each.origin, each.origin + 3);
     const allpairs_nearest_many nearest{points.data(), rays.size(), m_choices.below(20)};
     checked(allpairs_world_find_nearest_many(world, &nearest, &wanted, &neighbors));
+    const allpairs_set* const boxes = anySet().set;
+    checked(allpairs_world_find_nearest_to_boxes(world, boxes, m_choices.below(20), &wanted, &neighbors));
   }
 
   void betweenWorlds() {

@@ -399,6 +399,9 @@ class Life {
     const std::size_t count = m_choices.below(kMostInWorld + 20);
     require(std::ranges::equal(m_world.findNearest(point, count, wanted), m_oracle.nearest(point, count, wanted)),
             "findNearest is exact");
+    const Box box = m_choices.box();
+    require(std::ranges::equal(m_world.findNearest(box, count, wanted), m_oracle.nearest(box, count, wanted)),
+            "findNearest to a box is exact");
   }
 
   /// A second world of a few boxes, and the pairs between the two.

@@ -148,13 +148,13 @@ class World {
   /// Filters apply as within a world, except that two static boxes are tested too; `accept` of this world is called.
   [[nodiscard]] std::vector<Pair> findBetween(const World& other) const;
 
-  /// The boxes that would be a pair with a box, with their margins as its distance: by ascending id. The distance of the
-  /// options, which is of pairs, is not added: enlarge the box by it.
+  /// The boxes that would be a pair with a box, with their margins as its distance: by ascending id. The distance of
+  /// the options, which is of pairs, is not added: enlarge the box by it.
   ///
   /// Geometry: the margin is added to a maximum, the box's or the other's, in double, as in a pair. Rays, sweeps and
-  ///           findNearest() take it from the minimum, and may differ where such a sum is rounded; a box that a negative
-  ///           margin turns over is hit by no ray; it overlaps what holds all between its bounds, and a sweep of that
-  ///           hits it.
+  ///           findNearest() take it from the minimum, and may differ where such a sum is rounded; a box that a
+  ///           negative margin turns over is hit by no ray; it overlaps what holds all between its bounds, and a sweep
+  ///           of that hits it.
   /// Cost: of this query and those below, with world numbers, that of one world if the filter names it; else all worlds
   ///       are searched one after the other.
   [[nodiscard]] std::vector<BoxId> findOverlapping(const Box& box, const QueryFilter& filter = {}) const;
@@ -176,12 +176,18 @@ class World {
   [[nodiscard]] ResultLists<SweepHit> findAll(Span<const Ray> rays, const QueryFilter& filter = {}) const;
   [[nodiscard]] ResultLists<SweepHit> findAll(Span<const BoxSweep> sweeps, const QueryFilter& filter = {}) const;
 
-  /// The `count` boxes nearest to a point, or all if there are fewer: by ascending (distance, id).
+  /// The `count` boxes nearest to a point or a box, or all if there are fewer: by ascending (distance, id).
+  /// An empty box is near nothing.
   ///
-  /// Bad input: a point that is not finite throws InvalidArgument.
+  /// Bad input: a point that is not finite throws InvalidArgument, a box with a NaN InvalidBox.
   [[nodiscard]] std::vector<Neighbor> findNearest(const std::array<double, 3>& point, std::size_t count,
                                                   const QueryFilter& filter = {}) const;
   [[nodiscard]] ResultLists<Neighbor> findNearest(Span<const std::array<double, 3>> points, std::size_t count,
+                                                  const QueryFilter& filter = {}) const;
+  template <class T>  // so that {x, y, z} is a point
+  [[nodiscard]] std::vector<Neighbor> findNearest(const BasicBox<T>& box, std::size_t count,
+                                                  const QueryFilter& filter = {}) const;
+  [[nodiscard]] ResultLists<Neighbor> findNearest(const BoxView& boxes, std::size_t count,
                                                   const QueryFilter& filter = {}) const;
 
  private:

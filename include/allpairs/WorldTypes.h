@@ -128,7 +128,7 @@ struct SweepHit {
   friend constexpr bool operator!=(const SweepHit& a, const SweepHit& b) { return !(a == b); }
 };
 
-/// A box and its Euclidean distance from a point; 0 if the point is in the box.
+/// A box and its Euclidean distance from a point or a box; 0 if the point is in it, or the two overlap.
 struct Neighbor {
   BoxId id = kNoBox;
   double distance = std::numeric_limits<double>::infinity();

@@ -394,8 +394,8 @@ def points(name: str, value: npt.ArrayLike) -> npt.NDArray[np.float64]:
     return array if array.shape[1] == 3 else np.pad(array, ((0, 0), (0, 1)))
 
 
-def _moving(name: str, value: npt.NDArray[Any]) -> npt.NDArray[np.float64]:
-    """What begins to move: points as rows of three, or boxes as rows of six; those in the plane are unbounded in depth."""
+def places(name: str, value: npt.NDArray[Any]) -> npt.NDArray[np.float64]:
+    """Points as rows of three, or boxes as rows of six; boxes in the plane are unbounded in depth."""
     columns = value.shape[-1] if value.ndim in (1, 2) else 0
     if columns in (6, 4):
         rows: npt.NDArray[np.float64] = np.atleast_2d(floats(name, value)).astype(np.float64, copy=False)
@@ -409,7 +409,7 @@ def _moving(name: str, value: npt.NDArray[Any]) -> npt.NDArray[np.float64]:
 def sweeps(origins: npt.ArrayLike, directions: npt.ArrayLike, length: npt.ArrayLike) -> npt.NDArray[np.float64]:
     """Rays, or boxes that move, all in space or all in the plane: in each row origin or box, direction and length."""
     given, ways = array_of("origins", origins), array_of("directions", directions)
-    start, way = _moving("origins", given), points("directions", ways)
+    start, way = places("origins", given), points("directions", ways)
     axes = given.shape[-1:] if start.shape[1] == 3 else (given.shape[-1] // 2,)
     if given.size and axes != ways.shape[-1:]:
         raise InvalidArgument(f"origins has shape {given.shape}, directions {ways.shape}: not of the same axes")

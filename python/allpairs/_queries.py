@@ -146,13 +146,14 @@ class WorldQueries:
         moving: bool = True,
         world: int | None = None,
     ) -> tuple[Ids, npt.NDArray[np.float64]]:
-        """The boxes nearest to each point, by Euclidean distance; 0 inside of a box.
+        """The boxes nearest to each point, or to each box, by Euclidean distance; 0 inside of a box, or where two overlap.
 
         Each box extends by its margin, and the distance of the world does not count.
 
         Parameters
         ----------
         points : array_like, shape (n, 3) or (3,); in the plane (n, 2) or (2,)
+            Or boxes, shape (n, 6) or (6,); in the plane (n, 4) or (4,). An empty box is near nothing.
         k : int
 
         The others are those of `overlapping`.
@@ -165,7 +166,8 @@ class WorldQueries:
         """
         query = _query_filter(locals())
         count = _arguments.whole("k", k, least=1, most=NO_BOX)
-        ids, distances = self._core.nearest(_arguments.contiguous(_arguments.points("points", points)), count, query)
+        places = _arguments.places("points", _arguments.array_of("points", points))
+        ids, distances = self._core.nearest(_arguments.contiguous(places), count, query)
         return np.asarray(ids), np.asarray(distances)
 
     def overlaps_between(self, other: WorldQueries) -> Pairs:

@@ -72,7 +72,9 @@ Lists copyOf(const StepResult& result, const StopFlag& stop) {
            copyOf(result.ended, stop)}};
 }
 
-constexpr py::ssize_t kRayColumns = 7;     // origin, direction, length
+constexpr py::ssize_t kRayColumns = 7;  // origin, direction, length
+constexpr py::ssize_t kPointColumns = 3;
+constexpr py::ssize_t kBoxColumns = 6;
 constexpr py::ssize_t kSweepColumns = 10;  // box, direction, length
 
 std::vector<Ray> raysOf(std::span<const double> rows) {
@@ -105,9 +107,10 @@ void askOf(const py::buffer_info& info, const Ask& ask) {
   }
 }
 
-py::buffer_info sweepBuffer(const py::buffer& rows) {
+/// Rows that are wide or narrow.
+py::buffer_info requestRows(const py::buffer& rows, py::ssize_t wide, py::ssize_t narrow) {
   const py::buffer_info info = rows.request();
-  return requestBuffer(rows, {"d", info.ndim == 2 && info.shape[1] == kSweepColumns ? kSweepColumns : kRayColumns});
+  return requestBuffer(rows, {"d", info.ndim == 2 && info.shape[1] == wide ? wide : narrow});
 }
 
 std::vector<std::array<double, 3>> pointsOf(std::span<const double> rows) {
@@ -326,7 +329,7 @@ std::unique_ptr<PairArray> MovingBoxes::overlapping(const Boxes& boxes, const Qu
 }
 
 py::tuple MovingBoxes::firstHits(const py::buffer& sweeps, const QueryFilter& filter) {
-  const py::buffer_info info = sweepBuffer(sweeps);
+  const py::buffer_info info = requestRows(sweeps, kSweepColumns, kRayColumns);
   const auto count = static_cast<std::size_t>(info.shape[0]);
   Found found;
   search(count, [&](World& world) {
@@ -339,7 +342,7 @@ py::tuple MovingBoxes::firstHits(const py::buffer& sweeps, const QueryFilter& fi
 }
 
 py::tuple MovingBoxes::allHits(const py::buffer& sweeps, const QueryFilter& filter) {
-  const py::buffer_info info = sweepBuffer(sweeps);
+  const py::buffer_info info = requestRows(sweeps, kSweepColumns, kRayColumns);
   std::vector<std::uint64_t> offsets;
   Found found;
   search(static_cast<std::size_t>(info.shape[0]), [&](World& world) {
@@ -356,15 +359,18 @@ py::tuple MovingBoxes::allHits(const py::buffer& sweeps, const QueryFilter& filt
   return py::make_tuple(arrayOf(std::move(offsets)), arrayOf(std::move(found.ids)), arrayOf(std::move(found.numbers)));
 }
 
-py::tuple MovingBoxes::nearest(const py::buffer& points, std::size_t count, const QueryFilter& filter) {
-  const py::buffer_info info = requestBuffer(points, {"d", 3});
+py::tuple MovingBoxes::nearest(const py::buffer& queries, std::size_t count, const QueryFilter& filter) {
+  const py::buffer_info info = requestRows(queries, kBoxColumns, kPointColumns);
+  const bool areBoxes = info.shape[1] == kBoxColumns;
+  const auto size = static_cast<std::size_t>(info.shape[0]);
   Found found;
-  search(static_cast<std::size_t>(info.shape[0]), [&](World& world) {
-    const std::vector<std::array<double, 3>> asked = pointsOf(valuesOf<double>(info));
-    found.ids.assign(asked.size() * count, kNoBox);
-    found.numbers.assign(asked.size() * count, std::numeric_limits<double>::infinity());
-    const ResultLists<Neighbor> lists = world.findNearest(asked, count, filter);
-    for (std::size_t i = 0; i < asked.size(); ++i) {
+  search(size, [&](World& world) {
+    const std::span<const double> rows = valuesOf<double>(info);
+    found.ids.assign(size * count, kNoBox);
+    found.numbers.assign(size * count, std::numeric_limits<double>::infinity());
+    const ResultLists<Neighbor> lists = areBoxes ? world.findNearest(BoxView::fromRows(rows), count, filter)
+                                                 : world.findNearest(pointsOf(rows), count, filter);
+    for (std::size_t i = 0; i < size; ++i) {
       for (std::size_t k = 0; k < lists[i].size(); ++k) {
         found.ids[i * count + k] = lists[i][k].id;
         found.numbers[i * count + k] = lists[i][k].distance;

@@ -94,8 +94,9 @@ class MovingBoxes {
   /// The same of all boxes: where those of each ray begin, and one more; their ids; and t.
   [[nodiscard]] pybind11::tuple allHits(const pybind11::buffer& sweeps, const QueryFilter& filter);
 
-  /// For each point, of rows of 3, the ids of the nearest boxes, and their distances; kNoBox and infinity at the end.
-  [[nodiscard]] pybind11::tuple nearest(const pybind11::buffer& points, std::size_t count, const QueryFilter& filter);
+  /// For each point, of rows of 3, or box, of rows of 6, the ids of the nearest boxes, and their distances; kNoBox and
+  /// infinity at the end.
+  [[nodiscard]] pybind11::tuple nearest(const pybind11::buffer& queries, std::size_t count, const QueryFilter& filter);
 
   /// Pairs of a box of this and one of another, or of this too.
   [[nodiscard]] std::unique_ptr<PairArray> between(MovingBoxes& other);

@@ -187,6 +187,17 @@ allpairs_status allpairs_world_find_nearest_many(allpairs_world* world, const al
   });
 }
 
+allpairs_status allpairs_world_find_nearest_to_boxes(allpairs_world* world, const allpairs_set* boxes, size_t count,
+                                                     const allpairs_query_filter* filter,
+                                                     allpairs_neighbor_lists* lists) {
+  return guarded([&] {
+    allpairs_neighbor_lists& result = required(lists, "lists");
+    auto& found = required(world, "world").found.neighborLists;
+    found = CallingBack(world).world().findNearest(required(boxes, "boxes").boxes, count, filterOf(world, filter));
+    result = toC<allpairs_neighbor_lists>(found);
+  });
+}
+
 allpairs_status allpairs_world_find_between(allpairs_world* world, allpairs_world* other, allpairs_pairs* pairs) {
   return guarded([&] {
     allpairs_pairs& result = required(pairs, "pairs");

@@ -113,6 +113,35 @@ static void pointsAreAnswered(allpairs_world* many, allpairs_world* single, cons
   }
 }
 
+static double squareBetween(const double* a, const double* b) {
+  double sum = 0;
+  for (size_t axis = 0; axis < 3; ++axis) {
+    const double gap = fmax(fmax(a[axis] - b[axis + 3], b[axis] - a[axis + 3]), 0);
+    sum += gap * gap;
+  }
+  return sum;
+}
+
+/// The k-th neighbor is at its distance, and k boxes come before it.
+static void boxesAreToldTheirNearest(allpairs_world* many) {
+  allpairs_neighbor_lists lists;
+  allpairs_set* boxes = setOf(asked, kQueries);
+  ALLPAIRS_CHECK(allpairs_world_find_nearest_to_boxes(many, boxes, kNearest, NULL, &lists) == ALLPAIRS_OK);
+  ALLPAIRS_CHECK(lists.count == kQueries && lists.offsets[kQueries] == kNearest * (size_t)kQueries);
+  for (size_t i = 0; i < lists.offsets[kQueries]; ++i) {
+    const allpairs_neighbor found = lists.data[i];
+    const double* query = &asked[6 * (i / kNearest)];
+    const double square = squareBetween(query, &rows[6 * (size_t)found.id]);
+    size_t nearer = 0;
+    for (uint32_t id = 0; id < kBoxes; ++id) {
+      const double other = squareBetween(query, &rows[6 * (size_t)id]);
+      nearer += other < square || (other == square && id < found.id) ? 1 : 0;
+    }
+    ALLPAIRS_CHECK(fabs(found.distance - sqrt(square)) <= 1e-12 * sqrt(square) && nearer == i % kNearest);
+  }
+  allpairs_set_destroy(boxes);
+}
+
 static void noQueriesAreNoLists(allpairs_world* world) {
   const allpairs_rays rays = {NULL, 0};
   const allpairs_nearest_many nearest = {NULL, 0, 3};
@@ -147,6 +176,7 @@ static void nonsenseIsNamedAndAnswersNothing(allpairs_world* world) {
   ALLPAIRS_CHECK(refused(allpairs_world_find_all_many(world, nowhere, NULL, &lists), "rays is null"));
   ALLPAIRS_CHECK(refused(allpairs_world_find_first_many(world, rays, NULL, NULL), "hits is null"));
   ALLPAIRS_CHECK(refused(allpairs_world_find_overlapping_many(world, NULL, NULL, NULL), "lists is null"));
+  ALLPAIRS_CHECK(refused(allpairs_world_find_nearest_to_boxes(world, NULL, 1, NULL, &neighbors), "boxes is null"));
 }
 
 int main(void) {
@@ -161,6 +191,7 @@ int main(void) {
     raysAreAnswered(many, single, NULL);
     sweepsAreAnswered(many, single, NULL);
     pointsAreAnswered(many, single, NULL);
+    boxesAreToldTheirNearest(many);
     noQueriesAreNoLists(many);
     nonsenseIsNamedAndAnswersNothing(many);
     allpairs_set* boxes = setOf(asked, kQueries);

@@ -143,6 +143,8 @@ static allpairs_status queryEach(allpairs_world* world, const allpairs_set* set,
       return allpairs_world_find_all_many(world, all, NULL, &hitLists);
     case 3:
       return allpairs_world_find_nearest_many(world, &nearest, NULL, &neighbors);
+    case 4:
+      return allpairs_world_find_nearest_to_boxes(world, set, 3, NULL, &neighbors);
     default:
       return allpairs_world_find_between(world, world, &pairs);
   }
@@ -163,7 +165,7 @@ static void stepsAndQueriesEnd(const allpairs_set* set) {
   ALLPAIRS_CHECK(allpairs_world_step(world, &step) == ALLPAIRS_OK);
   ALLPAIRS_CHECK(step.pairs.count > kBoxes && step.began.count == step.pairs.count);
   const size_t pairs = step.pairs.count;
-  for (size_t call = 0; call < 5; ++call) {
+  for (size_t call = 0; call < 6; ++call) {
     stop.left = 0;
     ALLPAIRS_CHECK(queryEach(world, set, call) == ALLPAIRS_STOPPED);
     stop.left = SIZE_MAX;

@@ -68,7 +68,7 @@ class Twins {
     const std::vector<BoxId> met = world.findOverlapping(query);
     ASSERT_EQ(std::vector<BoxId>(met.begin(), met.end()), oracle.overlapping(query, {}));
     const std::vector<Neighbor> near = world.findNearest({2, 2, 2}, 9);
-    ASSERT_EQ(std::vector<Neighbor>(near.begin(), near.end()), oracle.nearest({2, 2, 2}, 9, {}));
+    ASSERT_EQ(std::vector<Neighbor>(near.begin(), near.end()), oracle.nearest(Box{{2, 2, 2}, {2, 2, 2}}, 9, {}));
   }
 
   World world;
@@ -405,7 +405,8 @@ TEST(FailedWorldAllocation, OfQueriesChangesNoBoxAndNoPair) {
       [&](World& world) { world.findFirst(std::span<const Ray>(rays), hits); },
       [&](World& world) { static_cast<void>(world.findAll(std::span<const BoxSweep>(sweeps))); },
       [&](World& world) { static_cast<void>(world.findAll(std::span<const Ray>(rays))); },
-      [&](World& world) { static_cast<void>(world.findNearest(points, 5)); }};
+      [&](World& world) { static_cast<void>(world.findNearest(points, 5)); },
+      [&](World& world) { static_cast<void>(world.findNearest(queries, 5)); }};
   for (std::size_t k = 0; k < 2 * each.size(); ++k) {
     const auto& query = each[k / 2];
     test::failEachAllocation([&](test::Fault& fault) {

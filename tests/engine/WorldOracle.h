@@ -139,14 +139,18 @@ struct WorldOracle {
 
   [[nodiscard]] std::vector<Neighbor> nearest(const std::array<double, 3>& p, std::size_t count,
                                               const QueryFilter& filter) const {
+    return nearest(Box{p, p}, count, filter);
+  }
+
+  [[nodiscard]] std::vector<Neighbor> nearest(const Box& query, std::size_t count, const QueryFilter& filter) const {
     std::vector<Neighbor> result;
+    if (empty(query)) return result;
     for (const auto& [id, e] : boxes) {
       if (!looksAt(e.properties, filter) || empty(e.box)) continue;
       std::array<double, 3> gaps{};
       for (std::size_t k = 0; k < 3; ++k) {
-        const double below = lowOf(e, k) - p[k];
-        const double above = p[k] - highOf(e, k);
-        gaps[k] = std::max(0.0, std::max(below, above));
+        if (lowOf(e, k) > query.max[k]) gaps[k] = lowOf(e, k) - query.max[k];
+        if (query.min[k] > highOf(e, k)) gaps[k] = std::max(gaps[k], query.min[k] - highOf(e, k));
       }
       result.push_back({id, length(gaps)});
     }

@@ -268,6 +268,7 @@ class Lives {
     compareRays(rays, filter);
     compareSweeps(sweeps, filter);
     compareNearest(points, filter);
+    compareNearest(boxes, filter);
   }
 
   void compareBoxes(const std::vector<Box>& boxes, const QueryFilter& filter) {
@@ -303,11 +304,13 @@ class Lives {
     }
   }
 
-  void compareNearest(const std::vector<std::array<double, 3>>& points, const QueryFilter& filter) {
+  /// To points or boxes.
+  template <class Query>
+  void compareNearest(const std::vector<Query>& queries, const QueryFilter& filter) {
     const std::size_t count = below(12);
-    const ResultLists<Neighbor> lists = m_world.findNearest(points, count, filter);
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      const std::vector<Neighbor> expected = m_oracle.nearest(points[i], count, filter);
+    const ResultLists<Neighbor> lists = m_world.findNearest(queries, count, filter);
+    for (std::size_t i = 0; i < queries.size(); ++i) {
+      const std::vector<Neighbor> expected = m_oracle.nearest(queries[i], count, filter);
       ASSERT_EQ(std::vector<Neighbor>(lists[i].begin(), lists[i].end()), expected);
     }
   }

@@ -79,6 +79,7 @@ class WorldQueryExtremes : public ::testing::TestWithParam<std::string_view> {
 
   void compareSweeps();
   void compareNearest();
+  void compareNearestToBoxes();
   void compareOverlapping();
 
   template <class T>
@@ -123,6 +124,19 @@ void WorldQueryExtremes::compareNearest() {
   }
 }
 
+void WorldQueryExtremes::compareNearestToBoxes() {
+  std::vector<Box> boxes;
+  for (int i = 0; i < 300; ++i) boxes.push_back(m_numbers.box());
+  for (const std::size_t count : {std::size_t{1}, std::size_t{9}, std::size_t{1000}}) {
+    const ResultLists<Neighbor> lists = m_world.findNearest(BoxView(std::span<const Box>(boxes)), count);
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+      const std::vector<Neighbor> expected = m_oracle.nearest(boxes[i], count, {});
+      EXPECT_EQ(listOf(lists[i]), expected) << "box " << i << ", " << count;
+      EXPECT_EQ(m_world.findNearest(boxes[i], count), expected) << "box " << i << " alone, " << count;
+    }
+  }
+}
+
 void WorldQueryExtremes::compareOverlapping() {
   std::vector<Box> boxes;
   for (int i = 0; i < 300; ++i) boxes.push_back(m_numbers.box());
@@ -134,12 +148,14 @@ void WorldQueryExtremes::compareOverlapping() {
 
 TEST_P(WorldQueryExtremes, SweptBoxesMeetWhatTheOracleMeets) { compareSweeps(); }
 TEST_P(WorldQueryExtremes, PointsAreAsFarFromBoxesAsTheOracleSays) { compareNearest(); }
+TEST_P(WorldQueryExtremes, BoxesAreAsFarFromBoxesAsTheOracleSays) { compareNearestToBoxes(); }
 TEST_P(WorldQueryExtremes, BoxesOverlapWhatTheOracleSays) { compareOverlapping(); }
 
 TEST_P(WorldQueryExtremes, MarginsOfAnySizeChangeNothingOfThat) {
   fill(true);
   compareSweeps();
   compareNearest();
+  compareNearestToBoxes();
   compareOverlapping();
 }
 
@@ -190,6 +206,25 @@ TEST(WorldQuery, ABoxAtInfinityWithAnInfiniteMarginIsNearestToEveryPoint) {
   const std::vector<Neighbor> found = world.findNearest({5.0, 0.5, 0.5}, 3);
   EXPECT_EQ(std::vector<Neighbor>(found.begin(), found.end()),
             (std::vector<Neighbor>{{all, 0.0}, {near, 4.0}, {far, kInfinity}}));
+}
+
+TEST(WorldQuery, TheNearestToABoxOfEitherPrecisionAreTheSame) {
+  World world;
+  const BoxId overlapping = world.add(Box{{0.0, 0.0, 0.0}, {1.0, 1.0, 1.0}});
+  const BoxId apart = world.add(Box{{4.0, 5.0, 0.0}, {5.0, 6.0, 1.0}});
+  const std::vector<Neighbor> expected{{overlapping, 0.0}, {apart, 5.0}};
+  EXPECT_EQ(world.findNearest(Box{{0.5, 0.5, 0.5}, {1.0, 1.0, 2.0}}, 2), expected);
+  EXPECT_EQ(world.findNearest(BoxF{{0.5F, 0.5F, 0.5F}, {1.0F, 1.0F, 2.0F}}, 2), expected);
+}
+
+TEST(WorldQuery, TheNearestToABoxWithANanOrAMarginAreRefused) {
+  World world;
+  world.add(Box{{0.0, 0.0, 0.0}, {1.0, 1.0, 1.0}});
+  EXPECT_THROW(static_cast<void>(world.findNearest(Box{{0.0, std::nan(""), 0.0}, {1.0, 1.0, 1.0}}, 1)), InvalidBox);
+  const std::vector<Box> boxes(3);
+  BoxView wide(boxes);
+  wide.setMargin(0.5);
+  EXPECT_THROW(static_cast<void>(world.findNearest(wide, 1)), InvalidArgument);
 }
 
 TEST(WorldQuery, DistancesWhoseSquaresNoNumberHoldsAreStillTold) {

@@ -235,6 +235,14 @@ def test_queries_find_what_a_loop_finds():
     np.testing.assert_allclose(distances, np.sort(gaps, axis=1)[:, :4])
     np.testing.assert_allclose(np.take_along_axis(gaps, ids.astype(int), axis=1), distances)
 
+    gaps = np.maximum(np.maximum(lower - asked[:, None, 3:], asked[:, None, :3] - upper), 0)
+    apart = np.linalg.norm(gaps, axis=2)
+    ids, distances = world.nearest(asked, k=4)
+    order = np.lexsort([np.broadcast_to(np.arange(200), apart.shape), apart])[:, :4]
+    np.testing.assert_array_equal(ids, order)
+    np.testing.assert_allclose(distances, np.take_along_axis(apart, order, axis=1))
+    assert world.nearest(asked[0], k=4)[0].tolist() == order[:1].tolist()
+
     origins = np.column_stack([lower[:9, :2] + 0.5, np.full(9, -3.0)])
     ids, t = world.first_hits(origins, [0, 0, 2])
     pierced = ((lower[:, :2] <= origins[:, None, :2]) & (origins[:, None, :2] <= upper[:, :2])).all(axis=2)
@@ -250,6 +258,8 @@ def test_queries_that_find_nothing_say_so():
     assert (ids.tolist(), t.tolist()) == ([allpairs.NO_BOX], [np.inf])
     ids, distances = world.nearest([3, 0, 0], k=2)
     assert (ids.tolist(), distances.tolist()) == ([[0, allpairs.NO_BOX]], [[2, np.inf]])
+    ids, distances = world.nearest([[3, 4, 0, 4, 4, 0], [1, 0, 0, 0, 0, 0]])
+    assert (ids.tolist(), distances.tolist()) == ([[0], [allpairs.NO_BOX]], [[13**0.5], [np.inf]])
     assert world.overlapping([[5, 5, 5, 6, 6, 6]]).shape == (0, 2)
 
 

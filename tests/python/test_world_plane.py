@@ -85,6 +85,9 @@ def test_the_nearest_boxes_are_those_of_the_double_loop():
         np.testing.assert_array_equal(near, order)
         np.testing.assert_allclose(far, away[order])
     assert world.nearest(points[0], k=3)[0].tolist() == ids[:1].tolist()
+    flat = np.hstack([points, points])  # boxes of a point each
+    np.testing.assert_array_equal(world.nearest(flat, k=3)[0], ids)
+    np.testing.assert_array_equal(world.nearest(flat, k=3)[1], distances)
 
 
 def test_rays_hit_what_the_double_loop_hits_first():
@@ -123,8 +126,8 @@ def test_other_shapes_and_a_nan_are_refused_with_a_sentence():
         world.add(np.zeros((2, 5)))
     with pytest.raises(ValueError, match=r"upper has shape \(2, 3\); it takes \(n, 2\)"):
         world.overlapping(np.zeros((2, 2)), np.zeros((2, 3)))
-    with pytest.raises(ValueError, match=r"points has shape \(1, 4\); it takes \(k, 3\) or \(k, 2\)"):
-        world.nearest([0, 0, 0, 0])
+    with pytest.raises(ValueError, match=r"points has shape \(5,\); it takes \(k, 3\) or \(k, 2\), and for boxes \(k, 6\)"):
+        world.nearest([0, 0, 0, 0, 0])
     with pytest.raises(allpairs.InvalidBox, match="^box 1: max y"):
         world.add([[0, 0, 1, 1], [0, 0, 1, np.nan]])
     assert len(world) == 2

@@ -132,14 +132,14 @@ std::uint32_t meetingLanes(const LaneBlock& block, const SweepLanes& sweep, floa
   });
 }
 
-/// Which lanes may be as near to a point as the square root of `limit`, and lower bounds of their squared distances.
-std::uint32_t nearLanes(const LaneBlock& block, const LaneBox& point, float limit, float* squares) {
+/// Which lanes may be as near to a box as the square root of `limit`, and lower bounds of their squared distances.
+std::uint32_t nearLanes(const LaneBlock& block, const LaneBox& box, float limit, float* squares) {
   return bitsOfBlock([&](std::size_t i) HWY_ATTR {
     const FloatTag d;
     auto sum = hn::Zero(d);
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const auto ahead = hn::Sub(hn::Load(d, &block.bound[axis][i]), hn::Set(d, point.bound[axis + 3]));
-      const auto behind = hn::Sub(hn::Set(d, point.bound[axis]), hn::Load(d, &block.bound[axis + 3][i]));
+      const auto ahead = hn::Sub(hn::Load(d, &block.bound[axis][i]), hn::Set(d, box.bound[axis + 3]));
+      const auto behind = hn::Sub(hn::Set(d, box.bound[axis]), hn::Load(d, &block.bound[axis + 3][i]));
       const auto apart = hn::Max(hn::Max(ahead, behind), hn::Zero(d));
       sum = hn::Add(sum, hn::Mul(apart, apart));
     }

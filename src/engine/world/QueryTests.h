@@ -65,11 +65,12 @@ inline constexpr double kFar = std::numeric_limits<double>::infinity();
   return std::sqrt(squares);
 }
 
-/// The Euclidean distance of a point from a box.
-[[nodiscard]] inline double distanceFrom(const std::array<double, 3>& point, const Box& box) noexcept {
+/// The Euclidean distance between two boxes; a margin may have inverted the bounds of the second one.
+[[nodiscard]] inline double distanceBetween(const Box& a, const Box& b) noexcept {
   std::array<double, 3> apart;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    apart[axis] = std::max({box.min[axis] - point[axis], point[axis] - box.max[axis], 0.0});
+    // The zero comes first: so a NaN, the difference of two infinities, is none.
+    apart[axis] = std::max({0.0, b.min[axis] - a.max[axis], a.min[axis] - b.max[axis]});
   }
   return lengthOf(apart);
 }

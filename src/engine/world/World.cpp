@@ -55,6 +55,11 @@ void checkQueryBox(const Box& box) {
   if (hasNan(box)) throw InvalidBox(0, "the box of the query has a NaN");
 }
 
+template <class T>
+Box toDouble(const BasicBox<T>& box) {
+  return {{box.min[0], box.min[1], box.min[2]}, {box.max[0], box.max[1], box.max[2]}};
+}
+
 void checkPoint(const std::array<double, 3>& point, std::size_t index) {
   if (!isFinite(point)) throw InvalidArgument("point " + std::to_string(index) + " is not finite");
 }
@@ -321,13 +326,27 @@ std::vector<Neighbor> World::findNearest(const std::array<double, 3>& point, std
                                          const QueryFilter& filter) const {
   checkPoint(point, 0);
   std::vector<Neighbor> neighbors;
-  State::queries(*this, filter).nearest(point, count, neighbors);
+  State::queries(*this, filter).nearest(Box{point, point}, count, neighbors);
   return neighbors;
 }
 ResultLists<Neighbor> World::findNearest(Span<const std::array<double, 3>> points, std::size_t count,
                                          const QueryFilter& filter) const {
   for (std::size_t i = 0; i < points.size(); ++i) checkPoint(points[i], i);
   return State::queries(*this, filter).nearest(points, count);
+}
+template <class T>
+std::vector<Neighbor> World::findNearest(const BasicBox<T>& box, std::size_t count, const QueryFilter& filter) const {
+  const Box wide = toDouble(box);
+  checkQueryBox(wide);
+  std::vector<Neighbor> neighbors;
+  State::queries(*this, filter).nearest(wide, count, neighbors);
+  return neighbors;
+}
+template std::vector<Neighbor> World::findNearest(const BoxF&, std::size_t, const QueryFilter&) const;
+template std::vector<Neighbor> World::findNearest(const Box&, std::size_t, const QueryFilter&) const;
+ResultLists<Neighbor> World::findNearest(const BoxView& boxes, std::size_t count, const QueryFilter& filter) const {
+  refuseMargins(boxes);
+  return State::queries(*this, filter).nearest(boxes, count);
 }
 
 }  // namespace allpairs

@@ -364,22 +364,20 @@ void WorldQueries::all(const BoxSweep& sweep, std::vector<SweepHit>& hits) const
 }
 
 /// The square of a distance within which all given boxes are, rounded up.
-float WorldQueries::limitFrom(const std::array<double, 3>& point, std::span<const Neighbor> others) const {
+float WorldQueries::limitFrom(const Box& query, std::span<const Neighbor> others) const {
   double farthest = 0.0;
   for (const Neighbor& other : others) {
-    const Box box = widened(m_store.box(other.id), m_store.margin(other.id));
-    farthest = std::max(farthest, distanceFrom(point, box));
+    farthest = std::max(farthest, distanceBetween(query, widened(m_store.box(other.id), m_store.margin(other.id))));
   }
   return roundUpFar(farthest * farthest);
 }
 
 /// The boxes nearest to the previous query, which is close in space, cannot be far: they give an initial limit.
-void WorldQueries::nearest(const std::array<double, 3>& point, std::size_t count,
-                           std::vector<Neighbor>& neighbors) const {
-  if (count == 0) return;
-  const LaneBox lanes = lanesOf(Box{point, point});
+void WorldQueries::nearest(const Box& query, std::size_t count, std::vector<Neighbor>& neighbors) const {
+  if (count == 0 || isEmpty(query)) return;
+  const LaneBox lanes = lanesOf(query);
   float limit = kNever;
-  if (neighbors.size() >= count) limit = limitFrom(point, std::span<const Neighbor>(neighbors).last(count));
+  if (neighbors.size() >= count) limit = limitFrom(query, std::span<const Neighbor>(neighbors).last(count));
   const auto lanesIn = [&](const LaneBlock& block, float* squares) {
     return m_search.kernels().nearLanes(block, lanes, limit, squares);
   };
@@ -387,7 +385,7 @@ void WorldQueries::nearest(const std::array<double, 3>& point, std::size_t count
   eachBvh([&](const Tree& tree) {
     const auto take = [&](BoxId id, const LaneBox& at) {
       if (!passes(id)) return;
-      const Neighbor found{id, distanceFrom(point, widenedBox(id, at, tree.isExact))};
+      const Neighbor found{id, distanceBetween(query, widenedBox(id, at, tree.isExact))};
       if (!keepNearest(neighbors, begin, count, found)) return;
       const double farthest = neighbors[begin].distance;
       limit = std::min(limit, roundUpFar(farthest * farthest));
@@ -442,7 +440,15 @@ ResultLists<SweepHit> WorldQueries::all(std::span<const BoxSweep> sweeps) const 
 ResultLists<Neighbor> WorldQueries::nearest(std::span<const std::array<double, 3>> points, std::size_t count) const {
   return findEach<Neighbor>(
       points.size(), [&](std::size_t i) { return points[i]; },
-      oneByOne([&](std::size_t i, std::vector<Neighbor>& neighbors) { nearest(points[i], count, neighbors); }));
+      oneByOne([&](std::size_t i, std::vector<Neighbor>& neighbors) {
+        nearest(Box{points[i], points[i]}, count, neighbors);
+      }));
+}
+
+ResultLists<Neighbor> WorldQueries::nearest(const BoxView& boxes, std::size_t count) const {
+  return findEach<Neighbor>(
+      boxes.size(), [&](std::size_t i) { return boxes[i].min; },
+      oneByOne([&](std::size_t i, std::vector<Neighbor>& neighbors) { nearest(boxes[i], count, neighbors); }));
 }
 
 }  // namespace allpairs::engine

@@ -28,12 +28,13 @@ class WorldQueries {
   void overlapping(const Box& query, std::vector<BoxId>& ids) const;
   [[nodiscard]] SweepHit first(const BoxSweep& sweep) const;
   void all(const BoxSweep& sweep, std::vector<SweepHit>& hits) const;
-  void nearest(const std::array<double, 3>& point, std::size_t count, std::vector<Neighbor>& neighbors) const;
+  void nearest(const Box& query, std::size_t count, std::vector<Neighbor>& neighbors) const;
 
   [[nodiscard]] ResultLists<BoxId> overlapping(const BoxView& boxes) const;
   void first(std::span<const BoxSweep> sweeps, std::span<SweepHit> hits) const;
   [[nodiscard]] ResultLists<SweepHit> all(std::span<const BoxSweep> sweeps) const;
   [[nodiscard]] ResultLists<Neighbor> nearest(std::span<const std::array<double, 3>> points, std::size_t count) const;
+  [[nodiscard]] ResultLists<Neighbor> nearest(const BoxView& boxes, std::size_t count) const;
 
  private:
   template <class PointOf>
@@ -52,7 +53,7 @@ class WorldQueries {
   void eachBvh(const Visit& visit) const;
   [[nodiscard]] bool passes(BoxId id) const noexcept;
   [[nodiscard]] Box widenedBox(BoxId id, const LaneBox& lanes, bool exact) const noexcept;
-  [[nodiscard]] float limitFrom(const std::array<double, 3>& point, std::span<const Neighbor> others) const;
+  [[nodiscard]] float limitFrom(const Box& query, std::span<const Neighbor> others) const;
 
   const BoxStore& m_store;
   const WorldSearch& m_search;
