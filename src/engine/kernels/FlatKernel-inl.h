@@ -39,12 +39,24 @@ HWY_INLINE Range columnsOf(const FlatSearch& search, std::size_t row) {
           search.tested == Columns::Preceding ? row : search.columns.size};
 }
 
+/// Calls use(tile, columns of it) for each tile of some columns.
+template <class Use>
+HWY_INLINE void forEachTile(const LaneList& list, Range columns, const Use& use) {
+  for (std::size_t begin = columns.begin; begin < columns.end;) {
+    const std::size_t first = begin / LaneTile::kCapacity * LaneTile::kCapacity;
+    const std::size_t stop = std::min(columns.end, first + LaneTile::kCapacity);
+    use(list.tileOf(begin), Range{begin - first, stop - first});
+    begin = stop;
+  }
+}
+
 /// One row against the columns [begin, end) of a tile.
 template <Density kDensity, class Emitter>
 HWY_INLINE void searchTile(const Query& q, std::uint32_t id, const LaneTile& tile, Range columns, Hits& hits) {
   Emitter emitter = Emitter::ofRow(hits, id);
   emitRow<kDensity>(q, tile, columns.begin, columns.end, emitter);
-  emitter.finish(hits, [&](std::size_t i) HWY_ATTR { return overlappingForCertain(q, hits.slack, tile.bound, i); });
+  emitter.finish(
+      hits, [&](std::size_t i) HWY_ATTR { return overlappingForCertain(q, hits.slack, vectorsAt(tile.bound, i)); });
 }
 
 /// One row against the columns [begin, end), tile by tile.
@@ -52,13 +64,10 @@ template <Density kDensity, class Emitter>
 HWY_INLINE void searchRow(const FlatSearch& search, std::size_t row, std::size_t begin, std::size_t end, Hits& hits) {
   const Query q = broadcast(search.rows.get(row));
   const std::uint32_t id = search.rows.id(row);
-  while (begin < end) {
-    const std::size_t first = begin / LaneTile::kCapacity * LaneTile::kCapacity;
-    const std::size_t stop = std::min(end, first + LaneTile::kCapacity);
+  forEachTile(search.columns, {begin, end}, [&](const LaneTile& tile, Range columns) HWY_ATTR {
     if (!hits.countOnly) hits.require(LaneTile::kCapacity);
-    searchTile<kDensity, Emitter>(q, id, search.columns.tileOf(begin), {begin - first, stop - first}, hits);
-    begin = stop;
-  }
+    searchTile<kDensity, Emitter>(q, id, tile, columns, hits);
+  });
 }
 
 /// Some rows against the whole vectors of a tile within [begin, end); returns the number of hits.
@@ -84,21 +93,17 @@ void countColumns(const FlatSearch& search, std::size_t row, Range columns, Hits
   const std::array<Query, kRowsAtOnce> queries{broadcast(search.rows.get(row)), broadcast(search.rows.get(row + 1)),
                                                broadcast(search.rows.get(row + 2)),
                                                broadcast(search.rows.get(row + 3))};
-  for (std::size_t begin = columns.begin; begin < columns.end;) {
-    const std::size_t first = begin / LaneTile::kCapacity * LaneTile::kCapacity;
-    const std::size_t stop = std::min(columns.end, first + LaneTile::kCapacity);
-    const auto& tile = search.columns.tileOf(begin);
-    const std::size_t whole = std::min((begin - first + lanes - 1) / lanes * lanes, stop - first);
-    const std::size_t wholeEnd = std::max((stop - first) / lanes * lanes, whole);
+  forEachTile(search.columns, columns, [&](const LaneTile& tile, Range part) HWY_ATTR {
+    const std::size_t whole = std::min((part.begin + lanes - 1) / lanes * lanes, part.end);
+    const std::size_t wholeEnd = std::max(part.end / lanes * lanes, whole);
     HitCounter counter;
     for (const Query& q : queries) {
-      emitRow<Density::Dense>(q, tile, begin - first, whole, counter);
-      emitRow<Density::Dense>(q, tile, wholeEnd, stop - first, counter);
+      emitRow<Density::Dense>(q, tile, part.begin, whole, counter);
+      emitRow<Density::Dense>(q, tile, wholeEnd, part.end, counter);
     }
     hits.count += counter.size;
     hits.count += countVectors(queries, tile, whole, wholeEnd);
-    begin = stop;
-  }
+  });
 }
 
 /// Counts several rows at a time while enough are left, and returns the first remaining one.
@@ -195,12 +200,9 @@ struct PairWriter {
 /// The hits of a query among the columns [begin, end), tile by tile.
 template <class Emitter>
 HWY_INLINE void emitColumns(const Query& q, const LaneList& columns, Range range, Emitter& emitter) {
-  for (std::size_t begin = range.begin; begin < range.end;) {
-    const std::size_t first = begin / LaneTile::kCapacity * LaneTile::kCapacity;
-    const std::size_t stop = std::min(range.end, first + LaneTile::kCapacity);
-    emitRow<Density::Dense>(q, columns.tileOf(begin), begin - first, stop - first, emitter);
-    begin = stop;
-  }
+  forEachTile(columns, range, [&](const LaneTile& tile, Range part) HWY_ATTR {
+    emitRow<Density::Dense>(q, tile, part.begin, part.end, emitter);
+  });
 }
 
 /// One row that is expected to have many pairs; returns their number.

@@ -44,18 +44,9 @@ struct Leaf {
     }
   }
 
-  /// The boxes of vector v that overlap the query.
-  [[nodiscard]] HWY_INLINE FloatMask overlappingWith(const Query& q, std::size_t v) const {
-    const FloatMask x = meets(q.minX, q.maxX, bound[0][v], bound[3][v]);
-    const FloatMask xy = meetsAlso(x, q.minY, q.maxY, bound[1][v], bound[4][v]);
-    return meetsAlso(xy, q.minZ, q.maxZ, bound[2][v], bound[5][v]);
-  }
-
-  /// Those that do so whatever the rounding was.
-  [[nodiscard]] HWY_INLINE FloatMask overlappingForCertain(const Query& q, const LaneSlack& slack,
-                                                           std::size_t v) const {
-    if (!slack.areNearest) return overlappingWith(inward(q, slack.most), v);
-    return strictlyOverlapping(q, [&](std::size_t row) HWY_ATTR { return bound[row][v]; });
+  /// The boxes of vector v, as the tests of lanes take them.
+  [[nodiscard]] HWY_INLINE auto vectors(std::size_t v) const {
+    return [this, v](std::size_t k) HWY_ATTR { return bound[k][v]; };
   }
 };
 
@@ -71,13 +62,13 @@ HWY_INLINE void selfJoin(const Leaf& leaf, Hits& hits) {
     for (std::size_t v = 0; v < Leaf::kVectors; ++v) {
       const std::size_t first = v * hn::Lanes(d);
       const std::size_t before = lane + 1 > first ? std::min(lane + 1 - first, hn::Lanes(d)) : 0;
-      const FloatMask mask = hn::AndNot(hn::FirstN(d, before), leaf.overlappingWith(q, v));
+      const FloatMask mask = hn::AndNot(hn::FirstN(d, before), overlapping(q, leaf.vectors(v)));
       emitter.emit(mask, leaf.id[v], static_cast<std::uint32_t>(lane * Leaf::kVectors + v));
     }
   }
   emitter.finish(hits, [&](std::size_t test) HWY_ATTR {
-    return leaf.overlappingForCertain(broadcast(leaf.block.get(test / Leaf::kVectors)), hits.slack,
-                                      test % Leaf::kVectors);
+    const Query q = broadcast(leaf.block.get(test / Leaf::kVectors));
+    return overlappingForCertain(q, hits.slack, leaf.vectors(test % Leaf::kVectors));
   });
 }
 
@@ -98,12 +89,12 @@ HWY_INLINE void crossJoin(const Leaf& leaf, const BvhView& other, std::span<cons
       emitter.share(other.ids[place]);
       const Query q = queryAt(place);
       for (std::size_t v = 0; v < Leaf::kVectors; ++v) {
-        emitter.emit(leaf.overlappingWith(q, v), leaf.id[v], static_cast<std::uint32_t>(i * Leaf::kVectors + v));
+        emitter.emit(overlapping(q, leaf.vectors(v)), leaf.id[v], static_cast<std::uint32_t>(i * Leaf::kVectors + v));
       }
     }
     emitter.finish(hits, [&](std::size_t test) HWY_ATTR {
-      return leaf.overlappingForCertain(queryAt(places[begin + test / Leaf::kVectors]), hits.slack,
-                                        test % Leaf::kVectors);
+      const Query q = queryAt(places[begin + test / Leaf::kVectors]);
+      return overlappingForCertain(q, hits.slack, leaf.vectors(test % Leaf::kVectors));
     });
   }
 }
@@ -122,9 +113,7 @@ HWY_INLINE std::size_t append(const Level& level, std::size_t b, std::size_t lan
     const auto bounds = hn::Load(d, &level.blocks[b].bound[row][lane]);
     hn::StoreU(selectedLanes(d, bounds, mask), d, &tile.bound[row][size]);
   }
-  const auto nodes = numbersFrom(b * kFanOut + lane);
-  hn::StoreU(selectedLanes(di, nodes, hn::RebindMask(di, mask)), di, &tile.id[size]);
-  return size + hn::CountTrue(d, mask);
+  return size + storeSelected(di, numbersFrom(b * kFanOut + lane), hn::RebindMask(di, mask), &tile.id[size]);
 }
 
 /// Appends the members of block b that overlap the query.
@@ -247,9 +236,7 @@ class JoinRun {
       const std::size_t first = blocks[i] * kFanOut;
       for (std::size_t lane = 0; lane < kFanOut; lane += lanes) {
         const auto touching = hn::RebindMask(d, overlapping(q, source[blocks[i]].bound, lane));
-        const auto place = numbersFrom(first + lane);
-        hn::StoreU(selectedLanes(d, place, touching), d, places + size);
-        size += hn::CountTrue(d, touching);
+        size += storeSelected(d, numbersFrom(first + lane), touching, places + size);
       }
     }
     return size;
@@ -317,8 +304,7 @@ class JoinRun {
     for (std::size_t i = 0; i < all; i += lanes) {
       FloatMask mask = overlapping(q, bound, i);
       if (all < i + lanes) mask = hn::And(hn::FirstN(d, all - i), mask);
-      hn::StoreU(selectedLanes(di, numbersFrom(i), hn::RebindMask(di, mask)), di, to + size);
-      size += hn::CountTrue(d, mask);
+      size += storeSelected(di, numbersFrom(i), hn::RebindMask(di, mask), to + size);
     }
     return size;
   }
@@ -351,7 +337,7 @@ class JoinRun {
       const Query q = broadcast(boxes[places[i]].box);
       std::uint32_t bits = 0;
       for (std::size_t v = 0; v < Leaf::kVectors; ++v) {
-        auto mask = hn::RebindMask(d, leaf.overlappingWith(q, v));
+        auto mask = hn::RebindMask(d, overlapping(q, leaf.vectors(v)));
         if constexpr (kKept == Columns::Others) mask = hn::And(mask, hn::Ne(leaf.id[v], hn::Set(d, id)));
         if constexpr (kKept == Columns::Following) mask = hn::And(mask, hn::Lt(leaf.id[v], hn::Set(d, id)));
         if constexpr (kKept == Columns::Preceding) mask = hn::And(mask, hn::Gt(leaf.id[v], hn::Set(d, id)));
@@ -406,7 +392,7 @@ class JoinRun {
     const FloatTag d;
     std::uint32_t bits = 0;
     for (std::size_t v = 0; v < Leaf::kVectors; ++v) {
-      bits |= allBitsOf(d, leaf.overlappingForCertain(q, slack, v)) << (v * hn::Lanes(d));
+      bits |= allBitsOf(d, overlappingForCertain(q, slack, leaf.vectors(v))) << (v * hn::Lanes(d));
     }
     return bits;
   }
@@ -425,8 +411,7 @@ class JoinRun {
       std::size_t size = 0;
       for (std::size_t i = 0; i < hits; i += hn::Lanes(d)) {
         const auto mask = hn::TestBit(hn::LoadU(d, hitBits + i), bit);
-        hn::StoreU(selectedLanes(d, hn::LoadU(d, hitIds + i), mask), d, to + size);
-        size += hn::CountTrue(d, mask);
+        size += storeSelected(d, hn::LoadU(d, hitIds + i), mask, to + size);
       }
       if (size != 0 && (areDoubtful || lists.filtered)) size = lists.select(lists, id, {to, size}, areDoubtful);
       lists.begin[id] = lists.base + lists.size;

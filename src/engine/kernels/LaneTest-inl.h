@@ -63,13 +63,22 @@ HWY_INLINE FloatMask meetsAlso(FloatMask also, FloatVector queryMin, FloatVector
 #endif
 }
 
-/// The lanes of six rows, each at its own pointer plus `i`, that overlap the query.
+/// A vector of each of six rows, at its own pointer plus `i`: what the tests below take as bound(k).
 template <class Rows>
-HWY_INLINE FloatMask overlapping(const Query& q, const Rows& bound, std::size_t i) {
-  const FloatTag d;
-  const FloatMask x = meets(q.minX, q.maxX, hn::LoadU(d, &bound[0][i]), hn::LoadU(d, &bound[3][i]));
-  const FloatMask xy = meetsAlso(x, q.minY, q.maxY, hn::LoadU(d, &bound[1][i]), hn::LoadU(d, &bound[4][i]));
-  return meetsAlso(xy, q.minZ, q.maxZ, hn::LoadU(d, &bound[2][i]), hn::LoadU(d, &bound[5][i]));
+HWY_INLINE auto vectorsAt(const Rows& rows, std::size_t i) {
+  return [&rows, i](std::size_t k) HWY_ATTR { return hn::LoadU(FloatTag(), &rows[k][i]); };
+}
+
+/// The lanes that overlap the query.
+template <class BoundOf>
+HWY_INLINE FloatMask overlapping(const Query& q, const BoundOf& bound) {
+  const FloatMask x = meets(q.minX, q.maxX, bound(0), bound(3));
+  const FloatMask xy = meetsAlso(x, q.minY, q.maxY, bound(1), bound(4));
+  return meetsAlso(xy, q.minZ, q.maxZ, bound(2), bound(5));
+}
+template <class Rows>
+HWY_INLINE FloatMask overlapping(const Query& q, const Rows& rows, std::size_t i) {
+  return overlapping(q, vectorsAt(rows, i));
 }
 
 /// The lanes of a mask in which one value is below another.
@@ -82,7 +91,7 @@ HWY_INLINE FloatMask belowAlso(FloatMask also, FloatVector value, FloatVector ot
 }
 
 /// Of lanes that are the nearest float32 to bounds, those whose bounds overlap the query's for certain: a bound is
-/// below another if its lane is. bound(k) has the lanes of a row.
+/// below another if its lane is.
 template <class BoundOf>
 HWY_INLINE FloatMask strictlyOverlapping(const Query& q, const BoundOf& bound) {
   FloatMask mask = belowAlso(hn::Lt(q.minX, bound(3)), bound(0), q.maxX);
@@ -107,11 +116,10 @@ HWY_INLINE Query inward(const Query& q, const std::array<float, 3>& most) {
           hn::Sub(q.maxY, slack(q.maxY, most[1])), hn::Sub(q.maxZ, slack(q.maxZ, most[2]))};
 }
 
-/// The lanes of six rows that overlap the query whatever the rounding was.
-template <class Rows>
-HWY_INLINE FloatMask overlappingForCertain(const Query& q, const LaneSlack& slack, const Rows& bound, std::size_t i) {
-  if (!slack.areNearest) return overlapping(inward(q, slack.most), bound, i);
-  return strictlyOverlapping(q, [&](std::size_t k) HWY_ATTR { return hn::LoadU(FloatTag(), &bound[k][i]); });
+/// The lanes that overlap the query whatever the rounding was.
+template <class BoundOf>
+HWY_INLINE FloatMask overlappingForCertain(const Query& q, const LaneSlack& slack, const BoundOf& bound) {
+  return slack.areNearest ? strictlyOverlapping(q, bound) : overlapping(inward(q, slack.most), bound);
 }
 
 /// The lanes of a mask as bits.
@@ -159,6 +167,13 @@ template <class D, class M>
 HWY_INLINE hn::Vec<D> selectedLanes(D d, hn::Vec<D> values, M mask) {
   if constexpr (hn::MaxLanes(D()) == 8 || hn::MaxLanes(D()) == 4) return lanesOfBits(d, values, allBitsOf(d, mask));
   return hn::Compress(values, mask);
+}
+
+/// Stores the lanes that the mask selects, in a whole vector; returns how many they are.
+template <class D, class M>
+HWY_INLINE std::size_t storeSelected(D d, hn::Vec<D> values, M mask, hn::TFromD<D>* to) {
+  hn::StoreU(selectedLanes(d, values, mask), d, to);
+  return hn::CountTrue(d, mask);
 }
 
 /// What numbersFrom() adds to.

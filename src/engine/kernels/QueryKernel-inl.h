@@ -45,9 +45,8 @@ std::size_t touchingPlaces(const BlockVisits& visits, std::uint32_t* HWY_RESTRIC
     const auto box = hn::Set(d, visits.boxOf[visit]);
     for (std::size_t i = 0; i < kFanOut; i += hn::Lanes(d)) {
       const auto touching = hn::RebindMask(d, overlapping(query, visits.blocks[block].bound, i));
-      hn::StoreU(selectedLanes(d, numbersFrom(block * kFanOut + i), touching), d, places + size);
       hn::StoreU(box, d, boxOf + size);
-      size += hn::CountTrue(d, touching);
+      size += storeSelected(d, numbersFrom(block * kFanOut + i), touching, places + size);
     }
   }
   return size;

@@ -41,10 +41,8 @@ struct HitWriter {
   /// `test` identifies the vector among those since the emitter was made.
   HWY_INLINE void emit(FloatMask mask, hn::Vec<IdTag> ids, std::uint32_t /*test*/) {
     const IdTag d;
-    const auto selected = hn::RebindMask(d, mask);
     hn::StoreU(hn::Set(d, commonId), d, shared + size);
-    hn::StoreU(selectedLanes(d, ids, selected), d, own + size);
-    size += hn::CountTrue(d, selected);
+    size += storeSelected(d, ids, hn::RebindMask(d, mask), own + size);
   }
 
   /// certainOf(test) has the lanes that overlap whatever the rounding was.
@@ -132,9 +130,7 @@ struct PartnerWriter {
 
   HWY_INLINE void emit(FloatMask mask, hn::Vec<IdTag> ids, std::uint32_t /*test*/) {
     const IdTag d;
-    const auto selected = hn::RebindMask(d, mask);
-    hn::StoreU(selectedLanes(d, ids, selected), d, partners + size);
-    size += hn::CountTrue(d, selected);
+    size += storeSelected(d, ids, hn::RebindMask(d, mask), partners + size);
   }
 };
 
