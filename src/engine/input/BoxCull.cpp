@@ -205,12 +205,13 @@ void BoxCull::restrictToBounds(BoxReader& reader, const BoxReader& other, const 
   const auto isNear = [&](const LaneBlock& block) { return reader.kernels().touchingLanes(block, bounds); };
   if (2 * countNear(sampleOf(reader), isNear) > kSample) return;
   const bool isLarger = other.size() <= reader.size() / kTimesLarger;
-  if (isLarger && reader.areBoundsOf<float>() && other.areBoundsOf<float>()) {
-    keepTouching<float>(reader, other, ids, executor);
-  } else if (isLarger && reader.areBoundsOf<double>() && other.areBoundsOf<double>()) {
+  const bool areRead = isLarger && reader.areAllByBounds() && other.areAllByBounds();
+  if (!areRead || !areRuns(reader.boxes(), other.boxes())) {
+    keepNear(reader, isNear, ids, executor);
+  } else if (reader.boxes().isFloat64()) {
     keepTouching<double>(reader, other, ids, executor);
   } else {
-    keepNear(reader, isNear, ids, executor);
+    keepTouching<float>(reader, other, ids, executor);
   }
 }
 

@@ -12,7 +12,6 @@
 #include "allpairs/Box.h"
 #include "allpairs/BoxView.h"
 #include "allpairs/OverlapOptions.h"
-#include "input/BoxRuns.h"
 #include "kernels/Kernels.h"
 #include "kernels/Lanes.h"
 #include "memory/Platform.h"
@@ -71,7 +70,7 @@ class BoxReader {
   /// From now on lanes are the nearest float32, so that which of them overlap for certain takes less time to tell. They
   /// may be smaller than the boxes, but keep the order of all bounds, those of the other set too, if it has such lanes.
   void roundToNearest() noexcept { m_widening.toNearest = true; }
-  [[nodiscard]] bool roundsToNearest() const noexcept { return m_widening.toNearest && !m_widening.widens; }
+  [[nodiscard]] bool roundsToNearest() const noexcept { return m_widening.toNearest; }
 
   [[nodiscard]] std::size_t size() const noexcept { return m_size; }
   [[nodiscard]] std::uint32_t idOf(std::size_t i) const noexcept {
@@ -79,12 +78,8 @@ class BoxReader {
   }
   [[nodiscard]] const BoxView& boxes() const noexcept { return *m_boxes; }
 
-  /// Whether these are all boxes of a set, one after the other in memory as boxes of this precision, and their own
-  /// bounds decide.
-  template <class T>
-  [[nodiscard]] bool areBoundsOf() const noexcept {
-    return m_ids == nullptr && m_distance == 0.0 && !m_boxes->hasMargins() && areRun<T>(*m_boxes);
-  }
+  /// Whether these are all boxes of a set, and their own bounds decide.
+  [[nodiscard]] bool areAllByBounds() const noexcept { return m_ids == nullptr && !widens(); }
 
   /// Whether all boxes are one point on an axis, empty ones too.
   [[nodiscard]] bool areAll(std::size_t axis, double point) const noexcept;

@@ -18,13 +18,18 @@ template <class T>
   }
 }
 
-/// Whether boxes of this precision lie one after the other, as rows of six or of three.
-template <class T>
-[[nodiscard]] bool areRun(const BoxView& boxes) noexcept {
-  const auto isRow = [](const CornerView<T>& corner) { return corner.boxStride == 3 && corner.axisStride == 1; };
-  if (boxes.isFloat64() != std::is_same_v<T, double>) return false;
-  const BoxView::Corners<T>& corners = cornersOf<T>(boxes);
-  return corners.isPacked() || (isRow(corners.min) && isRow(corners.max));
+/// Whether boxes lie one after the other, as rows of six or of three.
+[[nodiscard]] inline bool isRun(const BoxView& boxes) noexcept {
+  const auto isRow = [](const auto& corner) { return corner.boxStride == 3 && corner.axisStride == 1; };
+  const auto areRows = [&](const auto& corners) {
+    return corners.isPacked() || (isRow(corners.min) && isRow(corners.max));
+  };
+  return boxes.isFloat64() ? areRows(boxes.float64()) : areRows(boxes.float32());
+}
+
+/// Whether the boxes of two sets do, in the same precision.
+[[nodiscard]] inline bool areRuns(const BoxView& a, const BoxView& b) noexcept {
+  return a.isFloat64() == b.isFloat64() && isRun(a) && isRun(b);
 }
 
 /// Those boxes.

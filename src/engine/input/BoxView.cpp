@@ -51,15 +51,11 @@ bool hasNanAt(const CornerView<T>& corner, std::ptrdiff_t i) {
   return (x != x) | (y != y) | (z != z);
 }
 
+/// Of a box that has one.
 [[noreturn]] void throwNan(std::size_t index, const Box& box) {
-  for (std::size_t k = 0; k < 6; ++k) {
-    const double value = k < 3 ? box.min[k] : box.max[k - 3];
-    if (std::isnan(value)) {
-      const std::string bound = std::string(k < 3 ? "min " : "max ") + "xyz"[k % 3];
-      throw InvalidBox::ofSet(index, bound + " is not a number (NaN)");
-    }
-  }
-  throw InvalidBox::ofSet(index, "has a NaN");
+  std::size_t k = 0;
+  while (!std::isnan(k < 3 ? box.min[k] : box.max[k - 3])) ++k;
+  throw InvalidBox::ofSet(index, std::string(k < 3 ? "min " : "max ") + "xyz"[k % 3] + " is not a number (NaN)");
 }
 
 /// Up to so many values a loop here takes less time than finding the kernel for this processor (few_benchmark).
@@ -101,14 +97,14 @@ template <class T>
 }
 
 template <class T>
-void checkNoNan(std::size_t size, const BoxView::Corners<T>& corners, const BoxView& set) {
-  const bool found =
-      corners.isPacked() ? anyNan(corners.min.data, 6 * size) : anyNan(size, corners.min) || anyNan(size, corners.max);
-  if (found) throwFirstNan(set);
+bool anyNan(std::size_t size, const BoxView::Corners<T>& corners) {
+  return corners.isPacked() ? anyNan(corners.min.data, 6 * size)
+                            : anyNan(size, corners.min) || anyNan(size, corners.max);
 }
 
 template <class T>
-void checkData(std::size_t size, const CornerView<T>& min, const CornerView<T>& max) {
+void checkCorners(std::size_t size, const CornerView<T>& min, const CornerView<T>& max) {
+  checkCount(size);
   if (size == 0 || (min.data != nullptr && max.data != nullptr)) return;
   throw InvalidArgument("the corners are not in memory: their data is null");
 }
@@ -172,23 +168,21 @@ BoxView BoxView::fromCorners(Span<const double> min, Span<const double> max) {
 }
 
 BoxView BoxView::fromStrided(std::size_t size, CornerView<float> min, CornerView<float> max) {
-  checkCount(size);
-  checkData(size, min, max);
+  checkCorners(size, min, max);
   BoxView set;
   set.m_size = size;
   set.m_float32 = {min, max};
-  checkNoNan(size, set.m_float32, set);
+  if (anyNan(size, set.m_float32)) throwFirstNan(set);
   return set;
 }
 
 BoxView BoxView::fromStrided(std::size_t size, CornerView<double> min, CornerView<double> max) {
-  checkCount(size);
-  checkData(size, min, max);
+  checkCorners(size, min, max);
   BoxView set;
   set.m_size = size;
   set.m_isFloat64 = true;
   set.m_float64 = {min, max};
-  checkNoNan(size, set.m_float64, set);
+  if (anyNan(size, set.m_float64)) throwFirstNan(set);
   return set;
 }
 

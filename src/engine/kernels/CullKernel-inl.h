@@ -23,18 +23,6 @@ HWY_BEFORE_NAMESPACE();
 namespace allpairs::engine::HWY_NAMESPACE {
 namespace {  // Each file that compiles the kernels has its own.
 
-/// Whether no bound of box i lies beyond the box, and box i is not empty.
-template <class T>
-HWY_INLINE bool touches(const BoxRun<T>& run, std::size_t i, const std::array<T, 6>& box) {
-  const T* const min = run.min + i * run.stride;
-  const T* const max = run.max + i * run.stride;
-  bool inside = true;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    inside &= (min[axis] <= box[axis + 3]) & (max[axis] >= box[axis]) & (min[axis] <= max[axis]);
-  }
-  return inside;
-}
-
 #if HWY_TARGET != HWY_SCALAR
 
 /// What three vectors of bounds are compared with: corners follow each other in them, minima, maxima, or both in turns.
@@ -142,7 +130,8 @@ void touchBoxes(const BoxRun<T>& run, const std::array<T, 6>& box, std::uint64_t
 #if HWY_TARGET != HWY_SCALAR
   i = touchWhole(run, box, words);
 #endif
-  for (; i < run.size; ++i) words[i / kWordBoxes] |= std::uint64_t{touches(run, i, box)} << (i % kWordBoxes);
+  const BoxRun<T> one{box.data(), box.data() + 3, 6, 1};
+  for (; i < run.size; ++i) words[i / kWordBoxes] |= std::uint64_t{areHit(run, i, one, 0)} << (i % kWordBoxes);
 }
 
 /// With more pairs in a word they are selected by vectors, which takes the same time for any number (few_benchmark).

@@ -36,20 +36,18 @@ struct CurveGrid {
   [[nodiscard]] unsigned classShift() const noexcept { return isLine ? bitsPerAxis : 3 * bitsPerAxis; }
 
   /// The class of a box that is longer than largeExtent, from 1 on: which axis it is long in, or how large it is.
-  [[nodiscard]] std::uint32_t classOf(const LaneBox& box) const noexcept;
-};
-
-inline std::uint32_t CurveGrid::classOf(const LaneBox& box) const noexcept {
-  const std::array<float, 3> extent{box.bound[3] - box.bound[0], box.bound[4] - box.bound[1],
-                                    box.bound[5] - box.bound[2]};
-  std::array<float, 3> sorted = extent;
-  std::sort(sorted.begin(), sorted.end());
-  // Long: the longest side is three times the next one.
-  if (sorted[2] > 3.0F * sorted[1]) {
-    return 1U + static_cast<std::uint32_t>(std::max_element(extent.begin(), extent.end()) - extent.begin());
+  [[nodiscard]] std::uint32_t classOf(const LaneBox& box) const noexcept {
+    const std::array<float, 3> extent{box.bound[3] - box.bound[0], box.bound[4] - box.bound[1],
+                                      box.bound[5] - box.bound[2]};
+    std::array<float, 3> sorted = extent;
+    std::sort(sorted.begin(), sorted.end());
+    // Long: the longest side is three times the next one.
+    if (sorted[2] > 3.0F * sorted[1]) {
+      return 1U + static_cast<std::uint32_t>(std::max_element(extent.begin(), extent.end()) - extent.begin());
+    }
+    if (sorted[2] <= 8.0F * largeExtent) return 4U;
+    return sorted[2] <= 64.0F * largeExtent ? 5U : 6U;
   }
-  if (sorted[2] <= 8.0F * largeExtent) return 4U;
-  return sorted[2] <= 64.0F * largeExtent ? 5U : 6U;
-}
+};
 
 }  // namespace allpairs::engine

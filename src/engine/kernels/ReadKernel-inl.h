@@ -111,9 +111,9 @@ BlockRead readFloat32(const BoxPlaces<float>& places, LaneBlock& block) {
   return result;
 }
 
-/// A minimum, or a negated maximum, widened by half a distance and a margin, and by a slack that is larger than what all
-/// roundings of the exact expression, max + ((distance + margin) + margin), can add up to. Infinity stays what it is,
-/// unless it is taken from itself: that is a NaN.
+/// A minimum, or a negated maximum, widened by half a distance and a margin, and by a slack that is larger than what
+/// all roundings of the exact expression, max + ((distance + margin) + margin), can add up to. Infinity stays what it
+/// is, unless it is taken from itself: that is a NaN.
 HWY_INLINE DoubleVector widened(DoubleVector bound, DoubleVector halfDistance, DoubleVector margin) {
   const DoubleTag d;
   const auto sum = hn::Add(halfDistance, margin);
@@ -331,9 +331,7 @@ HWY_INLINE void classify(const LaneBlock& block, const CurveGrid& grid, std::uin
   if (hn::AllFalse(d, hn::Gt(longest, hn::Set(d, grid.largeExtent)))) return;
   for (std::size_t lane = 0; lane < kFanOut; ++lane) {
     const LaneBox box = block.get(lane);
-    const float extent =
-        HWY_MAX(box.bound[3] - box.bound[0], HWY_MAX(box.bound[4] - box.bound[1], box.bound[5] - box.bound[2]));
-    if (extent > grid.largeExtent) keys[lane] |= grid.classOf(box) << grid.classShift();
+    if (longestSide(box) > grid.largeExtent) keys[lane] |= grid.classOf(box) << grid.classShift();
   }
 }
 

@@ -206,7 +206,7 @@ template <With kWith, class Test>
 HWY_INLINE void testRows(Test test, const WorldPlaces& places, std::size_t begin, WorldHits& hits) {
   const std::size_t firstOfWord = begin / kWordBoxes * kWordBoxes;
   const std::size_t end = firstOfWord + kWordBoxes;
-  const std::size_t stop = kWith == With::Preceding ? end : places.end;
+  const std::size_t stop = kWith == With::Preceding ? end : places.end();
   const std::size_t rowBytes = places.words * sizeof(std::uint64_t);
   auto* const words = reinterpret_cast<std::uint8_t*>(&hits);
   for (std::size_t columns = (kWith == With::Following ? begin : places.first) / kColumnsAtOnce * kColumnsAtOnce;
@@ -299,7 +299,7 @@ HWY_INLINE void searchWord(const Test& test, std::size_t begin, const Partners& 
   const WorldPlaces& places = partners.places;
   WorldHits hits;
   if (places.words == 1) {
-    const Partners inOne{{places.first, kWordBoxes, 1}, partners.firstRow, partners.allowed, partners.alive};
+    const Partners inOne{{places.first, 1}, partners.firstRow, partners.allowed, partners.alive};
     testRows<kWith>(test, inOne.places, begin, hits);
     if constexpr (areOneSet(kWith)) {
       takeRows<kWith, kCount, 4>(test, hits, begin, kWordBoxes, inOne, sink);
@@ -345,10 +345,10 @@ HWY_INLINE void searchExactly(const WorldsRun<T>& run, std::size_t first, const 
   alignas(64) WorldTile<T> tile;
   readWorld(run.boxes, first, places, tile);
   if (places.words == 1) {
-    searchRead<kWith, kPlain>(BoundsTest<T>(tile, tile), {places.first, kWordBoxes, 1}, places.first, sink);
+    searchRead<kWith, kPlain>(BoundsTest<T>(tile, tile), {places.first, 1}, places.first, sink);
     return;
   }
-  for (std::size_t begin = places.first; begin < places.end; begin = WorldPlaces::endOfWord(begin))
+  for (std::size_t begin = places.first; begin < places.end(); begin = WorldPlaces::endOfWord(begin))
     searchBy<BoundsTest<T>, kWith, kPlain>(places, begin, sink, tile, tile);
 }
 
@@ -363,7 +363,7 @@ HWY_INLINE void searchNearest(WorldsRun<double>& run, std::size_t first, const W
   readWorld(run.boxes, first, places, tile);
   const BoxRun<double> boxes = run.boxes.part(first, run.boxes.size);
   const RowsTest exact(boxes, boxes);
-  for (std::size_t begin = places.first; begin < places.end; begin = WorldPlaces::endOfWord(begin)) {
+  for (std::size_t begin = places.first; begin < places.end(); begin = WorldPlaces::endOfWord(begin)) {
     const std::uint64_t before = sink.found();
     run.hadMany || sink.countOnly ? searchBy<NearestTest<true>, kWith, kPlain>(places, begin, sink, tile, tile, exact)
                                   : searchBy<NearestTest<false>, kWith, kPlain>(places, begin, sink, tile, tile, exact);
@@ -405,7 +405,7 @@ template <With kWith>
 HWY_INLINE void searchWide(const WideWorld& world, WorldSink& sink) {
   const WorldPlaces places = WorldPlaces::of(world.boxes);
   const Partners partners{places, places.first, sink.allowed, world.alive.data()};
-  for (std::size_t begin = places.first; begin < places.end; begin = WorldPlaces::endOfWord(begin)) {
+  for (std::size_t begin = places.first; begin < places.end(); begin = WorldPlaces::endOfWord(begin)) {
     if (!world.hasMargins && world.distance == 0.0) {
       searchSome<kWith>(BoundsTest<double>(world.tile, world.tile), begin, partners, sink);
     } else {
@@ -435,7 +435,7 @@ HWY_INLINE void searchBetween(BetweenRun<T>& run) {
   readWorld(run.columns, 0, columns, columnTile);
   const Partners partners{columns, rows.first};
   bool hadMany = true;
-  for (std::size_t begin = rows.first; begin < rows.end; begin = WorldPlaces::endOfWord(begin)) {
+  for (std::size_t begin = rows.first; begin < rows.end(); begin = WorldPlaces::endOfWord(begin)) {
     if constexpr (std::is_same_v<T, Lane>) {
       searchRowsBy<BoundsTest<Lane>, kWith>(partners, begin, run.sink, rowTile, columnTile);
     } else {

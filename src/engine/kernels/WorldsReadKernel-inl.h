@@ -162,8 +162,8 @@ HWY_INLINE void readFewCorners(const BoxRun<T>& boxes, WorldTile<Lane>& tile, st
   readCorners(copy.data(), max, boxes.stride, tile, at);
 }
 
-/// Gives empty boxes a minimum of which no comparison with a maximum is true: infinity where bounds were rounded, and so
-/// are finite; else NaN, since a maximum may be infinite.
+/// Gives empty boxes a minimum of which no comparison with a maximum is true: infinity where bounds were rounded, and
+/// so are finite; else NaN, since a maximum may be infinite.
 template <class T, class Lane>
 HWY_INLINE void markEmpty(WorldTile<Lane>& tile, std::size_t begin, std::size_t end) {
   using Limits = std::numeric_limits<Lane>;
@@ -199,8 +199,8 @@ HWY_INLINE void readWorld(const BoxRun<T>& boxes, std::size_t firstBox, const Wo
     }
     at += lanes;
   }
-  for (; at < places.end; at += lanes) read(firstBox + at - places.first, at);
-  if (kMarksEmpty) markEmpty<T>(tile, begin, places.end);
+  for (; at < places.end(); at += lanes) read(firstBox + at - places.first, at);
+  if (kMarksEmpty) markEmpty<T>(tile, begin, places.end());
 }
 
 /// Prefetches, line by line, what is read a page later: the processor's own prefetching ends with a page.

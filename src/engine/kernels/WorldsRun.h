@@ -27,15 +27,15 @@ static_assert(kMostInWorld % kWordBoxes == 0);
 /// that follow a box are in as few vectors as possible.
 struct WorldPlaces {
   std::size_t first;  ///< The place of box 0.
-  std::size_t end;
   std::size_t words;
 
   static WorldPlaces of(std::size_t boxes) noexcept {
     const std::size_t words = (boxes + kWordBoxes - 1) / kWordBoxes;
-    return {words * kWordBoxes - boxes, words * kWordBoxes, words};
+    return {words * kWordBoxes - boxes, words};
   }
 
-  [[nodiscard]] std::size_t boxes() const noexcept { return end - first; }
+  [[nodiscard]] std::size_t end() const noexcept { return words * kWordBoxes; }
+  [[nodiscard]] std::size_t boxes() const noexcept { return end() - first; }
 
   /// Where the word of a place ends.
   [[nodiscard]] static std::size_t endOfWord(std::size_t place) noexcept {
@@ -46,7 +46,7 @@ struct WorldPlaces {
   /// follow, or precede it.
   [[nodiscard]] std::size_t pairsFrom(std::size_t begin, bool preceding) const noexcept {
     const std::size_t rows = endOfWord(begin) - begin;
-    const std::size_t columns = preceding ? endOfWord(begin) - first : end - begin;
+    const std::size_t columns = preceding ? endOfWord(begin) - first : end() - begin;
     return rows * columns - rows * (rows + 1) / 2;
   }
 };

@@ -79,7 +79,7 @@ class NearBoxes {
   void touch(const BoxRun<T>& part, const Row<T>& box, const Kernels& kernels, Words& words) const {
     if (!m_areFew) return kernels.plain<T>().touchBoxes(part, box, words.data());
     words.fill(0);
-    if (m_size == 0) return;
+    if (m_size == 0) return;  // Most often: no limits are prepared.
     Words touching;
     const T* const rows = m_rows[0].data();
     kernels.plain<T>().touchBoxes({rows, rows + 3, 6, m_size}, box, touching.data());
@@ -191,9 +191,6 @@ bool areFewBesideMany(const Sets& sets, const OverlapOptions& options) {
   if (few > kMostOthers || many <= kWordBoxes) return false;
   if (options.strategy != Strategy::Automatic || !onlyBoundsMatter(sets, options)) return false;
   if (many >= kManyForThreads && options.executor != nullptr) return false;
-  const auto areRuns = [](const BoxView& a, const BoxView& b) {
-    return a.isFloat64() ? areRun<double>(a) && areRun<double>(b) : areRun<float>(a) && areRun<float>(b);
-  };
   return areRuns(sets.first, sets.second);
 }
 

@@ -37,12 +37,6 @@ constexpr std::size_t kSinkBytes =
 
 using TakePairs = FunctionRef<void(std::span<const Pair>)>;
 
-/// Whether boxes lie in memory one after the other.
-template <class T>
-bool arePlain(const Sets& sets) {
-  return areRun<T>(sets.first) && (sets.one || areRun<T>(sets.second));
-}
-
 /// Tests the pairs one after the other; returns the number of hits.
 template <class T>
 std::size_t testAmong(const BoxRun<T>& boxes, bool bySecond, Pair* pairs) {
@@ -196,8 +190,8 @@ bool areFew(const Sets& sets, const OverlapOptions& options) {
   const Kernels* const kernels = findKernels(options.instructionSet);
   if (kernels == nullptr || options.strategy == Strategy::Exhaustive) return true;
   // Where no order is asked for, the list does not depend on how boxes lie in memory.
-  const bool isPlain = sets.one && options.order != Order::Unordered && onlyBoundsMatter(sets, options) &&
-                       (arePlain<float>(sets) || arePlain<double>(sets));
+  const bool isPlain =
+      sets.one && options.order != Order::Unordered && onlyBoundsMatter(sets, options) && isRun(sets.first);
   const std::size_t most = isPlain ? kernels->plainBoxes : kernels->flatBoxes;
   return sets.first.size() * sets.second.size() <= most * most;
 }
@@ -205,10 +199,16 @@ bool areFew(const Sets& sets, const OverlapOptions& options) {
 OverlapStatistics findFew(const Sets& sets, const OverlapOptions& options, Order order,
                           FunctionRef<void(std::span<const Pair>)> take) {
   if (areFewBesideMany(sets, options)) return findFewBesideMany(sets, options, order, take);
-  const bool isPlain = onlyBoundsMatter(sets, options);
-  if (isPlain && arePlain<float>(sets)) return findPlain<float>(sets, options, order, take);
-  if (isPlain && arePlain<double>(sets)) return findPlain<double>(sets, options, order, take);
-  return findInTiles(sets, options, order, take);
+  const bool isPlain =
+      onlyBoundsMatter(sets, options) && (sets.one ? isRun(sets.first) : areRuns(sets.first, sets.second));
+  if (!isPlain) return findInTiles(sets, options, order, take);
+  return sets.first.isFloat64() ? findPlain<double>(sets, options, order, take)
+                                : findPlain<float>(sets, options, order, take);
+}
+
+OverlapStatistics countFew(const Sets& sets, const OverlapOptions& options) {
+  const auto ignore = [](std::span<const Pair>) {};
+  return findFew(sets, options, options.order, ignore);
 }
 
 }  // namespace allpairs::engine

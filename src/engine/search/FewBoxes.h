@@ -27,4 +27,7 @@ namespace allpairs::engine {
 OverlapStatistics findFew(const Sets& sets, const OverlapOptions& options, Order order,
                           FunctionRef<void(std::span<const Pair>)> take);
 
+/// Only counts them.
+OverlapStatistics countFew(const Sets& sets, const OverlapOptions& options);
+
 }  // namespace allpairs::engine

@@ -188,6 +188,15 @@ std::vector<Pair> takeOverlaps(const engine::Sets& sets, const OverlapOptions& o
   return searchOnce(sets, options, [&](engine::Search& search) { return search.take(sets, options); });
 }
 
+Neighbors takeNeighbors(const engine::Sets& sets, NeighborRows rows, const OverlapOptions& options) {
+  return searchOnce(sets, options, [&](engine::Search& search) { return search.takeNeighbors(sets, options, rows); });
+}
+
+std::uint64_t countOnce(const engine::Sets& sets, const OverlapOptions& options) {
+  if (engine::areFew(sets, options)) return engine::countFew(sets, options).pairs;
+  return searchOnce(sets, options, [&](engine::Search& search) { return search.countMany(sets, options); });
+}
+
 }  // namespace
 
 std::vector<Pair> overlaps(const BoxView& boxes, const OverlapOptions& options) {
@@ -200,24 +209,19 @@ std::vector<Pair> overlaps(const BoxView& first, const BoxView& second, const Ov
 
 Neighbors neighbors(const BoxView& boxes, NeighborRows rows, const OverlapOptions& options) {
   engine::checkRows(rows);
-  const engine::Sets sets(boxes);
-  return searchOnce(sets, options, [&](engine::Search& search) { return search.takeNeighbors(sets, options, rows); });
+  return takeNeighbors(engine::Sets(boxes), rows, options);
 }
 
 Neighbors neighbors(const BoxView& first, const BoxView& second, const OverlapOptions& options) {
-  const engine::Sets sets(first, second);
-  const NeighborRows rows = NeighborRows::Half;
-  return searchOnce(sets, options, [&](engine::Search& search) { return search.takeNeighbors(sets, options, rows); });
+  return takeNeighbors({first, second}, NeighborRows::Half, options);
 }
 
 std::uint64_t countOverlaps(const BoxView& boxes, const OverlapOptions& options) {
-  const engine::Sets sets(boxes);
-  return searchOnce(sets, options, [&](engine::Search& search) { return search.count(sets, options); });
+  return countOnce(engine::Sets(boxes), options);
 }
 
 std::uint64_t countOverlaps(const BoxView& first, const BoxView& second, const OverlapOptions& options) {
-  const engine::Sets sets(first, second);
-  return searchOnce(sets, options, [&](engine::Search& search) { return search.count(sets, options); });
+  return countOnce({first, second}, options);
 }
 
 void streamOverlaps(const BoxView& boxes, PairVisitor visitor, const OverlapOptions& options, std::size_t batchSize) {

@@ -134,13 +134,17 @@ void Search::shrink() noexcept {
   m_sort = PairSort(m_memory);
 }
 
+void Search::forget() noexcept {
+  m_statistics = {};
+  m_pairs = {};
+  m_rowsFound = {};
+}
+
 void Search::begin(const Sets& sets, const OverlapOptions& options) {
   checkOptions(sets, options);
   m_kernels = &chooseKernels(options);
   m_executor = &m_callExecutor.over(options.executor, options.stop);
-  m_statistics = {};
-  m_pairs = {};
-  m_rowsFound = {};
+  forget();
 }
 
 Search::Plan Search::planOf(const Sets& sets, const OverlapOptions& options, Order order) {
@@ -192,9 +196,9 @@ void Search::joinBoth(bool one, Plan& plan) {
   plan.job.firstLarge = m_first.firstLarge() / kFanOut;
 }
 
-void Search::run(const Plan& plan, Executor& executor) {
-  m_runner.start(plan.sink, executor);
-  m_runner.run(plan.job, executor);
+void Search::run(const Plan& plan) {
+  m_runner.start(plan.sink, *m_executor);
+  m_runner.run(plan.job, *m_executor);
   m_statistics = m_runner.totals();
   // Each worker has checked only its own pairs.
   checkLimit(plan.sink.maxPairs, m_statistics.pairs);
@@ -237,16 +241,14 @@ std::span<const Pair> Search::findPlanned(Plan& plan, const PairRoom* room) {
   if (!plan.job.flat && (findInLists(plan, room) || findInBuckets(plan, room))) return m_pairs;
   expectPairs(plan);
   expectAmply(plan);
-  run(plan, *m_executor);
+  run(plan);
   concatenate(room);
   if (!plan.job.flat) sortPairs(plan);
   return m_pairs;
 }
 
 std::span<const Pair> Search::findAmongFew(const Sets& sets, const OverlapOptions& options, Order order) {
-  m_statistics = {};
-  m_pairs = {};
-  m_rowsFound = {};
+  forget();
   std::size_t size = 0;
   const auto append = [&](std::span<const Pair> pairs) {
     m_joined.grow(size + pairs.size());
@@ -290,7 +292,7 @@ void Search::runInto(Plan& plan, FunctionRef<void(std::span<const Pair>)> take) 
   };
   plan.sink.emit.emplace(emit);
   plan.sink.likelyPairs = 0;
-  run(plan, *m_executor);
+  run(plan);
 }
 
 bool Search::findInBuckets(Plan& plan, const PairRoom* room) {
@@ -314,7 +316,7 @@ bool Search::fillBuckets(Plan& plan, void (PairBuckets::*add)(std::span<const Pa
   };
   plan.sink.emit.emplace(toBuckets);
   plan.sink.likelyPairs = 0;
-  run(plan, *m_executor);
+  run(plan);
   m_sort.finish();
   return true;
 }
@@ -395,16 +397,17 @@ void Search::sortPairs(const Plan& plan) {
 }
 
 std::uint64_t Search::count(const Sets& sets, const OverlapOptions& options) {
-  if (areFew(sets, options)) {
-    m_statistics = {};
-    const auto ignore = [](std::span<const Pair>) {};
-    m_statistics = findFew(sets, options, options.order, ignore);
-    return m_statistics.pairs;
-  }
+  if (!areFew(sets, options)) return countMany(sets, options);
+  forget();
+  m_statistics = countFew(sets, options);
+  return m_statistics.pairs;
+}
+
+std::uint64_t Search::countMany(const Sets& sets, const OverlapOptions& options) {
   Plan plan = planOf(sets, options, options.order);
   plan.sink.countOnly = true;
   plan.sink.likelyPairs = 0;
-  run(plan, *m_executor);
+  run(plan);
   return m_statistics.pairs;
 }
 

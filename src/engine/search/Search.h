@@ -49,6 +49,9 @@ class Search {
 
   std::uint64_t count(const Sets& sets, const OverlapOptions& options);
 
+  /// The same of more than a few boxes.
+  std::uint64_t countMany(const Sets& sets, const OverlapOptions& options);
+
   /// Passes the pairs on in batches of at most so many.
   void stream(const Sets& sets, const OverlapOptions& options, PairVisitor visitor, std::size_t batchSize);
 
@@ -69,6 +72,9 @@ class Search {
   /// Whether to test all pairs, and an estimate of their number, which is known only if there are many.
   bool choosesFlat(const Readers& readers, const OverlapOptions& options, std::size_t& likelyPairs) const;
 
+  /// Forgets the last result, but for its memory.
+  void forget() noexcept;
+
   /// Checks the options, forgets the last result, and prepares a search.
   Plan planOf(const Sets& sets, const OverlapOptions& options, Order order);
 
@@ -86,11 +92,11 @@ class Search {
 
   /// Reserves as much more as makes the pairs' block the largest one, where isAmple().
   void expectAmply(Plan& plan);
-  void run(const Plan& plan, Executor& executor);
+  void run(const Plan& plan);
   /// Whether pairs come in the order of the options, on one thread: then they are taken from the nearest cache.
   [[nodiscard]] bool comeInOrder(const Plan& plan) const;
   void runInto(Plan& plan, FunctionRef<void(std::span<const Pair>)> take);
-  std::span<Pair> copyInto(Plan& plan, std::span<Pair> memory);
+  std::span<Pair> findPlannedInto(Plan& plan, std::span<Pair> memory);
   std::span<Pair> roomForPairs(const PairRoom* room);
   void concatenate(const PairRoom* room);
   void sortPairs(const Plan& plan);

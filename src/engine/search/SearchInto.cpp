@@ -19,35 +19,36 @@ void checkRoom(std::uint64_t found, std::size_t room, const char* what) {
 
 }  // namespace
 
+/// Where pairs come in order they are copied as they are found; those that there is no room for are only counted.
 std::span<Pair> Search::findInto(const Sets& sets, const OverlapOptions& options, std::span<Pair> memory) {
-  std::span<const Pair> found;
+  std::uint64_t size = 0;
+  const auto copy = [&](std::span<const Pair> pairs) {
+    if (size + pairs.size() <= memory.size()) std::copy(pairs.begin(), pairs.end(), memory.data() + size);
+    size += pairs.size();
+  };
   if (areFew(sets, options)) {
-    found = findAmongFew(sets, options, options.order);
+    forget();
+    m_statistics = findFew(sets, options, options.order, copy);
   } else {
     Plan plan = planOf(sets, options, options.order);
-    if (comeInOrder(plan)) return copyInto(plan, memory);
-    const auto checked = [&](std::uint64_t pairs) {
-      checkRoom(pairs, memory.size(), "pairs");
-      return memory.first(pairs);
-    };
-    const PairRoom room(checked);
-    found = findPlanned(plan, &room);
+    if (!comeInOrder(plan)) return findPlannedInto(plan, memory);
+    runInto(plan, copy);
   }
+  checkRoom(size, memory.size(), "pairs");
+  return memory.first(size);
+}
+
+std::span<Pair> Search::findPlannedInto(Plan& plan, std::span<Pair> memory) {
+  const auto checked = [&](std::uint64_t pairs) {
+    checkRoom(pairs, memory.size(), "pairs");
+    return memory.first(pairs);
+  };
+  const PairRoom room(checked);
+  const std::span<const Pair> found = findPlanned(plan, &room);
   checkRoom(found.size(), memory.size(), "pairs");
   if (found.data() != memory.data()) std::copy(found.begin(), found.end(), memory.begin());
   m_pairs = {};
   return memory.first(found.size());
-}
-
-/// Copies pairs as they are found, and only counts those that there is no room for.
-std::span<Pair> Search::copyInto(Plan& plan, std::span<Pair> memory) {
-  std::uint64_t size = 0;
-  runInto(plan, [&](std::span<const Pair> pairs) {
-    if (size + pairs.size() <= memory.size()) std::copy(pairs.begin(), pairs.end(), memory.data() + size);
-    size += pairs.size();
-  });
-  checkRoom(size, memory.size(), "pairs");
-  return memory.first(size);
 }
 
 NeighborsView Search::findNeighborsInto(const Sets& sets, const OverlapOptions& options, NeighborRows kind,

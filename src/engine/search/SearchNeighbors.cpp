@@ -71,7 +71,7 @@ NeighborsView Search::findNeighbors(const Sets& sets, const OverlapOptions& opti
   }
   Plan plan = planOf(sets, options, Order::ByFirst);
   if (!listRows(plan, kind, room) && (plan.job.flat || !bucketRows(plan, kind, room))) {
-    run(plan, *m_executor);
+    run(plan);
     concatenate(nullptr);
     if (!plan.job.flat) sortPairs(plan);
     writePairsAsRows(sets, kind, room);

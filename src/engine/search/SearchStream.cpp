@@ -48,8 +48,8 @@ void Search::stream(const Sets& sets, const OverlapOptions& options, PairVisitor
   plan.sink.likelyPairs = 0;                       // passed on before there are many
   plan.sink.maxPairs = OverlapOptions().maxPairs;  // the batches are counted
   plan.sink.emit.emplace(giveFull);
-  SerialExecutor serial;  // The visitor is called on the calling thread.
-  run(plan, serial);
+  m_executor = &m_callExecutor.over(nullptr, options.stop);  // The visitor is called on the calling thread.
+  run(plan);
   give({m_runner.sink(0).pairs().data(), m_runner.sink(0).size()});
 }
 
@@ -94,7 +94,7 @@ bool Search::findRange(const Sets& sets, const OverlapOptions& options, const Bo
   plan.sink.emit.emplace(keep);
   m_statistics = {};
   try {
-    run(plan, *m_executor);
+    run(plan);
     if (m_statistics.pairs > most) return false;  // Each worker has checked only its own.
   } catch (const Overfull&) {
     return false;  // The caller halves the range.

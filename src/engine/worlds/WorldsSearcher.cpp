@@ -54,8 +54,7 @@ void WorldsSearcher::begin(const Worlds& worlds, const OverlapOptions& options) 
   checkStop(options.stop);
   m_executor = &m_callExecutor.over(options.executor, options.stop);
   const BoxView& boxes = worlds.boxes();
-  m_isPlain = options.distance == 0.0 && !options.region && !boxes.hasMargins() &&
-              (areRun<float>(boxes) || areRun<double>(boxes));
+  m_isPlain = options.distance == 0.0 && !options.region && !boxes.hasMargins() && isRun(boxes);
   m_mostBoxes = mostBoxesOf(*m_kernels, options);
   if (!m_isPlain) m_mostBoxes = std::min(m_mostBoxes, m_kernels->wideBoxes);
   m_filter.prepare(worlds, options, m_mostBoxes);
