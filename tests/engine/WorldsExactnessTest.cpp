@@ -249,7 +249,7 @@ TEST_P(WorldsApart, ByLessThanFloat32TellsGiveTheSameWhateverTheRounding) {
   }
 }
 
-/// A program may trap it.
+/// Searches of few boxes raise none, though larger ones may.
 TEST_P(WorldsApart, ByMoreThanFloat32HasSignalNoOverflow) {
   const std::vector<Box> boxes(70, {{-1e300, -3e38, -test::kInfinity}, {1e300, 1e308, 1e39}});
   const std::vector<std::uint64_t> begin{0, 5, 70};

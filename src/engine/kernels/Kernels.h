@@ -32,7 +32,8 @@ struct FlatSearch {
   NeighborLists* lists = nullptr;
 };
 
-/// So many boxes are searched on the stack: as many as any instruction set tests exhaustively.
+/// So many boxes of each set are searched on the stack: at least as many as any instruction set tests exhaustively in
+/// one set.
 inline constexpr std::size_t kMostFew = 384;
 static_assert(kMostFew <= LaneTile::kCapacity);
 
@@ -276,11 +277,12 @@ struct Kernels {
   BlockRead (*readWide64)(const BoxPlaces<double>& places, const Widening& widening, LaneBlock& block);
 
   /// Which of sixteen boxes a query may hit, as bits: a superset of the hits. If a number is requested, it is a lower
-  /// bound for each of them: of the time of the hit, or of the squared distance. A point is a box that contains it.
+  /// bound for each of them: of the time of the hit, or of the squared distance. A point is a box that
+  /// contains it.
   std::uint32_t (*touchingLanes)(const LaneBlock& block, const LaneBox& box);
   std::uint32_t (*markedLanes)(const LaneBlock& block, const MarkedCells& cells);
   std::uint32_t (*meetingLanes)(const LaneBlock& block, const SweepLanes& sweep, float limit, float* times);
-  std::uint32_t (*nearLanes)(const LaneBlock& block, const LaneBox& point, float limit, float* squares);
+  std::uint32_t (*nearLanes)(const LaneBlock& block, const LaneBox& box, float limit, float* squares);
 
   /// The same as touchingLanes() for each visit, in their order: writes the places of the lanes in the level, and the
   /// box beside each, and up to kVectorSlack past the last one. Returns how many there are.
