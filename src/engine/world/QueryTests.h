@@ -78,6 +78,7 @@ inline constexpr double kFar = std::numeric_limits<double>::infinity();
 [[nodiscard]] inline BoxSweep sweepOf(const Ray& ray) noexcept {
   return {{ray.origin, ray.origin}, ray.direction, ray.length};
 }
+[[nodiscard]] inline const BoxSweep& sweepOf(const BoxSweep& sweep) noexcept { return sweep; }
 
 // Queries for the kernels: in float32, and conservative, so that they find all that the query in double does.
 

@@ -6,6 +6,7 @@
 #include <limits>
 #include <mutex>
 #include <string>
+#include <type_traits>
 #include <utility>
 
 #include "allpairs/Error.h"
@@ -24,26 +25,21 @@ bool isFinite(const std::array<double, 3>& values) {
 }
 
 void checkSweep(const BoxSweep& sweep, bool isRay, std::size_t index) {
-  const std::string name = (isRay ? "ray " : "sweep ") + std::to_string(index);
-  if (hasNan(sweep.box) || (isRay && !isFinite(sweep.box.min))) {
-    throw InvalidArgument(name + (isRay ? ": its origin is not finite" : ": its box has a NaN"));
-  }
-  if (!isFinite(sweep.motion)) throw InvalidArgument(name + ": its direction is not finite");
-  if (std::isnan(sweep.length) || sweep.length < 0.0) throw InvalidArgument(name + ": its length is NaN or negative");
+  const auto refuse = [&](const char* why) {
+    throw InvalidArgument((isRay ? "ray " : "sweep ") + std::to_string(index) + why);
+  };
+  if (isRay && !isFinite(sweep.box.min)) refuse(": its origin is not finite");
+  if (hasNan(sweep.box)) refuse(": its box has a NaN");
+  if (!isFinite(sweep.motion)) refuse(": its direction is not finite");
+  if (std::isnan(sweep.length) || sweep.length < 0.0) refuse(": its length is NaN or negative");
 }
 
-std::vector<BoxSweep> sweepsOf(std::span<const Ray> rays) {
-  std::vector<BoxSweep> sweeps;
-  sweeps.reserve(rays.size());
-  for (std::size_t i = 0; i < rays.size(); ++i) {
-    sweeps.push_back(engine::sweepOf(rays[i]));
-    checkSweep(sweeps.back(), true, i);
+/// Of rays or sweeps.
+template <class Query>
+void checkEach(std::span<const Query> queries) {
+  for (std::size_t i = 0; i < queries.size(); ++i) {
+    checkSweep(engine::sweepOf(queries[i]), std::is_same_v<Query, Ray>, i);
   }
-  return sweeps;
-}
-
-void checkSweeps(std::span<const BoxSweep> sweeps) {
-  for (std::size_t i = 0; i < sweeps.size(); ++i) checkSweep(sweeps[i], false, i);
 }
 
 /// In a world the margin of a box is one of its properties.
@@ -291,14 +287,15 @@ SweepHit World::findFirst(const BoxSweep& sweep, const QueryFilter& filter) cons
 void World::findFirst(Span<const Ray> rays, Span<SweepHit> hits, const QueryFilter& filter) const {
   if (hits.size() != rays.size())
     throw InvalidArgument(std::to_string(rays.size()) + " rays, and room for " + std::to_string(hits.size()) + " hits");
-  State::queries(*this, filter).first(sweepsOf(rays), hits);
+  checkEach<Ray>(rays);
+  State::queries(*this, filter).first<Ray>(rays, hits);
 }
 void World::findFirst(Span<const BoxSweep> sweeps, Span<SweepHit> hits, const QueryFilter& filter) const {
   if (hits.size() != sweeps.size())
     throw InvalidArgument(std::to_string(sweeps.size()) + " sweeps, and room for " + std::to_string(hits.size()) +
                           " hits");
-  checkSweeps(sweeps);
-  State::queries(*this, filter).first(sweeps, hits);
+  checkEach<BoxSweep>(sweeps);
+  State::queries(*this, filter).first<BoxSweep>(sweeps, hits);
 }
 
 std::vector<SweepHit> World::findAll(const Ray& ray, const QueryFilter& filter) const {
@@ -315,11 +312,12 @@ std::vector<SweepHit> World::findAll(const BoxSweep& sweep, const QueryFilter& f
   return hits;
 }
 ResultLists<SweepHit> World::findAll(Span<const Ray> rays, const QueryFilter& filter) const {
-  return State::queries(*this, filter).all(sweepsOf(rays));
+  checkEach<Ray>(rays);
+  return State::queries(*this, filter).all<Ray>(rays);
 }
 ResultLists<SweepHit> World::findAll(Span<const BoxSweep> sweeps, const QueryFilter& filter) const {
-  checkSweeps(sweeps);
-  return State::queries(*this, filter).all(sweeps);
+  checkEach<BoxSweep>(sweeps);
+  return State::queries(*this, filter).all<BoxSweep>(sweeps);
 }
 
 std::vector<Neighbor> World::findNearest(const std::array<double, 3>& point, std::size_t count,

@@ -424,18 +424,24 @@ ResultLists<BoxId> WorldQueries::overlapping(const BoxView& boxes) const {
   return lists;
 }
 
-void WorldQueries::first(std::span<const BoxSweep> sweeps, std::span<SweepHit> hits) const {
-  const auto order = orderOf(sweeps.size(), [&](std::size_t i) { return sweeps[i].box.min; });
-  answerInOrder(order, [&](std::size_t, Queries queries) {
-    for (const CurveKey key : queries) hits[indexOf(key)] = first(sweeps[indexOf(key)]);
+template <class Query>
+void WorldQueries::first(std::span<const Query> queries, std::span<SweepHit> hits) const {
+  const auto order = orderOf(queries.size(), [&](std::size_t i) { return sweepOf(queries[i]).box.min; });
+  answerInOrder(order, [&](std::size_t, Queries some) {
+    for (const CurveKey key : some) hits[indexOf(key)] = first(sweepOf(queries[indexOf(key)]));
   });
 }
+template void WorldQueries::first(std::span<const Ray>, std::span<SweepHit>) const;
+template void WorldQueries::first(std::span<const BoxSweep>, std::span<SweepHit>) const;
 
-ResultLists<SweepHit> WorldQueries::all(std::span<const BoxSweep> sweeps) const {
+template <class Query>
+ResultLists<SweepHit> WorldQueries::all(std::span<const Query> queries) const {
   return findEach<SweepHit>(
-      sweeps.size(), [&](std::size_t i) { return sweeps[i].box.min; },
-      oneByOne([&](std::size_t i, std::vector<SweepHit>& hits) { all(sweeps[i], hits); }));
+      queries.size(), [&](std::size_t i) { return sweepOf(queries[i]).box.min; },
+      oneByOne([&](std::size_t i, std::vector<SweepHit>& hits) { all(sweepOf(queries[i]), hits); }));
 }
+template ResultLists<SweepHit> WorldQueries::all(std::span<const Ray>) const;
+template ResultLists<SweepHit> WorldQueries::all(std::span<const BoxSweep>) const;
 
 ResultLists<Neighbor> WorldQueries::nearest(std::span<const std::array<double, 3>> points, std::size_t count) const {
   return findEach<Neighbor>(

@@ -31,8 +31,10 @@ class WorldQueries {
   void nearest(const Box& query, std::size_t count, std::vector<Neighbor>& neighbors) const;
 
   [[nodiscard]] ResultLists<BoxId> overlapping(const BoxView& boxes) const;
-  void first(std::span<const BoxSweep> sweeps, std::span<SweepHit> hits) const;
-  [[nodiscard]] ResultLists<SweepHit> all(std::span<const BoxSweep> sweeps) const;
+  template <class Query>  // Ray or BoxSweep
+  void first(std::span<const Query> queries, std::span<SweepHit> hits) const;
+  template <class Query>
+  [[nodiscard]] ResultLists<SweepHit> all(std::span<const Query> queries) const;
   [[nodiscard]] ResultLists<Neighbor> nearest(std::span<const std::array<double, 3>> points, std::size_t count) const;
   [[nodiscard]] ResultLists<Neighbor> nearest(const BoxView& boxes, std::size_t count) const;
 
