@@ -384,8 +384,7 @@ class Calls {
     checked(allpairs_world_find_overlapping(world, moving.box, maybeNull(&wanted), &ids));
     require(ids.count <= allpairs_world_size(world), "no box is found twice");
     if (checked(allpairs_world_find_first(world, &way, &wanted, &first)) == ALLPAIRS_OK) {
-      require(checked(allpairs_world_find_all(world, &way, &wanted, &hits)) == ALLPAIRS_OK,
-              "all hits of a ray are found");
+      require(checked(allpairs_world_find_all(world, &way, &wanted, &hits)) == ALLPAIRS_OK, "all hits are found");
       compareFirst(first, hits);
     }
     if (checked(allpairs_world_sweep_first(world, &moving, &wanted, &first)) == ALLPAIRS_OK) {
@@ -416,8 +415,7 @@ class Calls {
     for (const allpairs_ray& each : rays) points.insert(points.end(), each.origin, each.origin + 3);
     const allpairs_nearest_many nearest{points.data(), rays.size(), m_choices.below(20)};
     checked(allpairs_world_find_nearest_many(world, &nearest, &wanted, &neighbors));
-    const allpairs_set* const boxes = anySet().set;
-    checked(allpairs_world_find_nearest_to_boxes(world, boxes, m_choices.below(20), &wanted, &neighbors));
+    checked(allpairs_world_find_nearest_to_boxes(world, anySet().set, nearest.count, &wanted, &neighbors));
   }
 
   void betweenWorlds() {

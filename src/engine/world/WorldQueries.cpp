@@ -3,11 +3,14 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstddef>
 #include <numeric>
 #include <tuple>
 
 #include "bvh/HilbertSort.h"
+#include "input/BoxReader.h"
 #include "kernels/Kernels.h"
+#include "memory/Platform.h"
 #include "world/QueryTests.h"
 
 namespace allpairs::engine {
@@ -160,15 +163,31 @@ void sortIds(std::span<BoxId> ids) {
 /// Queries of a batch, by their indices.
 using Queries = std::span<const CurveKey>;
 
+/// Prefetches an object of at most two cache lines.
+template <class T>
+void prefetchObject(const T& object) noexcept {
+  prefetchLine(&object);
+  prefetchLine(reinterpret_cast<const std::byte*>(&object + 1) - 1);
+}
+
+/// Calls use(query) for some queries. They lie in no order: prefetch(query) is called some before.
+template <class Prefetch, class Use>
+void eachQuery(Queries queries, const Prefetch& prefetch, const Use& use) {
+  for (std::size_t i = 0; i < queries.size(); ++i) {
+    prefetch(indexOf(queries[std::min(i + kPrefetchDistance, queries.size() - 1)]));
+    use(indexOf(queries[i]));
+  }
+}
+
 /// Finds the values of some queries one after the other: find(query, values) appends those of one.
-template <class Find>
-auto oneByOne(const Find& find) {
-  return [find](Queries queries, auto& values, std::size_t* sizes) {
-    for (const CurveKey key : queries) {
+template <class Prefetch, class Find>
+auto oneByOne(const Prefetch& prefetch, const Find& find) {
+  return [prefetch, find](Queries queries, auto& values, std::size_t* sizes) {
+    eachQuery(queries, prefetch, [&](std::size_t query) {
       const std::size_t before = values.size();
-      find(indexOf(key), values);
-      sizes[indexOf(key)] = values.size() - before;
-    }
+      find(query, values);
+      sizes[query] = values.size() - before;
+    });
   };
 }
 
@@ -398,7 +417,8 @@ void WorldQueries::nearest(const Box& query, std::size_t count, std::vector<Neig
 /// Of no more queries than one task answers, neither an order nor tasks pay.
 ResultLists<BoxId> WorldQueries::overlapping(const BoxView& boxes) const {
   const bool areTogether = canAskTogether();
-  const auto alone = oneByOne([&](std::size_t i, std::vector<BoxId>& ids) { overlapping(boxes[i], ids); });
+  const auto prefetch = [&](std::size_t i) { prefetchBox(boxes, static_cast<std::uint32_t>(i)); };
+  const auto alone = oneByOne(prefetch, [&](std::size_t i, std::vector<BoxId>& ids) { overlapping(boxes[i], ids); });
   const auto find = [&](Queries queries, std::vector<BoxId>& ids, std::size_t* sizes) {
     if (!areTogether) return alone(queries, ids, sizes);
     for (std::size_t begin = 0; begin < queries.size(); begin += kTogether) {
@@ -428,7 +448,11 @@ template <class Query>
 void WorldQueries::first(std::span<const Query> queries, std::span<SweepHit> hits) const {
   const auto order = orderOf(queries.size(), [&](std::size_t i) { return sweepOf(queries[i]).box.min; });
   answerInOrder(order, [&](std::size_t, Queries some) {
-    for (const CurveKey key : some) hits[indexOf(key)] = first(sweepOf(queries[indexOf(key)]));
+    const auto prefetch = [&](std::size_t i) {
+      prefetchObject(queries[i]);
+      prefetchObject(hits[i]);
+    };
+    eachQuery(some, prefetch, [&](std::size_t i) { hits[i] = first(sweepOf(queries[i])); });
   });
 }
 template void WorldQueries::first(std::span<const Ray>, std::span<SweepHit>) const;
@@ -438,7 +462,8 @@ template <class Query>
 ResultLists<SweepHit> WorldQueries::all(std::span<const Query> queries) const {
   return findEach<SweepHit>(
       queries.size(), [&](std::size_t i) { return sweepOf(queries[i]).box.min; },
-      oneByOne([&](std::size_t i, std::vector<SweepHit>& hits) { all(sweepOf(queries[i]), hits); }));
+      oneByOne([&](std::size_t i) { prefetchObject(queries[i]); },
+               [&](std::size_t i, std::vector<SweepHit>& hits) { all(sweepOf(queries[i]), hits); }));
 }
 template ResultLists<SweepHit> WorldQueries::all(std::span<const Ray>) const;
 template ResultLists<SweepHit> WorldQueries::all(std::span<const BoxSweep>) const;
@@ -446,15 +471,17 @@ template ResultLists<SweepHit> WorldQueries::all(std::span<const BoxSweep>) cons
 ResultLists<Neighbor> WorldQueries::nearest(std::span<const std::array<double, 3>> points, std::size_t count) const {
   return findEach<Neighbor>(
       points.size(), [&](std::size_t i) { return points[i]; },
-      oneByOne([&](std::size_t i, std::vector<Neighbor>& neighbors) {
-        nearest(Box{points[i], points[i]}, count, neighbors);
-      }));
+      oneByOne([&](std::size_t i) { prefetchObject(points[i]); },
+               [&](std::size_t i, std::vector<Neighbor>& neighbors) {
+                 nearest(Box{points[i], points[i]}, count, neighbors);
+               }));
 }
 
 ResultLists<Neighbor> WorldQueries::nearest(const BoxView& boxes, std::size_t count) const {
   return findEach<Neighbor>(
       boxes.size(), [&](std::size_t i) { return boxes[i].min; },
-      oneByOne([&](std::size_t i, std::vector<Neighbor>& neighbors) { nearest(boxes[i], count, neighbors); }));
+      oneByOne([&](std::size_t i) { prefetchBox(boxes, static_cast<std::uint32_t>(i)); },
+               [&](std::size_t i, std::vector<Neighbor>& neighbors) { nearest(boxes[i], count, neighbors); }));
 }
 
 }  // namespace allpairs::engine
