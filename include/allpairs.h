@@ -650,6 +650,12 @@ typedef struct allpairs_nearest_many {
   size_t count;
 } allpairs_nearest_many;
 
+/// Boxes, and the number of nearest boxes to find for each.
+typedef struct allpairs_nearest_to_boxes {
+  const allpairs_set* boxes;
+  size_t count;
+} allpairs_nearest_to_boxes;
+
 /// The result of allpairs_world_find_overlapping() for each box of a set. A set with margins is an
 /// ALLPAIRS_INVALID_ARGUMENT.
 ALLPAIRS_C_API allpairs_status allpairs_world_find_overlapping_many(allpairs_world* world, const allpairs_set* boxes,
@@ -675,10 +681,11 @@ ALLPAIRS_C_API allpairs_status allpairs_world_find_nearest_many(allpairs_world* 
                                                                 const allpairs_query_filter* filter,
                                                                 allpairs_neighbor_lists* lists);
 
-/// The `count` boxes nearest to each box of a set, or all if there are fewer; an empty box is near nothing. A set with
-/// margins is an ALLPAIRS_INVALID_ARGUMENT.
-ALLPAIRS_C_API allpairs_status allpairs_world_find_nearest_to_boxes(allpairs_world* world, const allpairs_set* boxes,
-                                                                    size_t count, const allpairs_query_filter* filter,
+/// The result of allpairs_world_find_nearest() for each box of a set; an empty box is near nothing. A set with margins
+/// is an ALLPAIRS_INVALID_ARGUMENT.
+ALLPAIRS_C_API allpairs_status allpairs_world_find_nearest_to_boxes(allpairs_world* world,
+                                                                    const allpairs_nearest_to_boxes* nearest,
+                                                                    const allpairs_query_filter* filter,
                                                                     allpairs_neighbor_lists* lists);
 
 /// All pairs of a box of `world` (first) and one of `other` that overlap at the mean of the distances of the two;

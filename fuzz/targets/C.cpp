@@ -100,8 +100,7 @@ class Calls {
   }
 
   allpairs_status createFrom(SetHandle& handle, std::size_t count) {
-    require(checked(allpairs_set_create_f64(nullptr, count, &handle.set)) == ALLPAIRS_INVALID_ARGUMENT,
-            "null is refused");
+    require(checked(allpairs_set_create_f64(nullptr, count, &handle.set)) == ALLPAIRS_INVALID_ARGUMENT, "null is none");
     const auto last = static_cast<std::ptrdiff_t>(6 * (count - 1));
     const float* f = handle.float32.data();
     const double* d = handle.float64.data();
@@ -415,7 +414,8 @@ class Calls {
     for (const allpairs_ray& each : rays) points.insert(points.end(), each.origin, each.origin + 3);
     const allpairs_nearest_many nearest{points.data(), rays.size(), m_choices.below(20)};
     checked(allpairs_world_find_nearest_many(world, &nearest, &wanted, &neighbors));
-    checked(allpairs_world_find_nearest_to_boxes(world, anySet().set, nearest.count, &wanted, &neighbors));
+    const allpairs_nearest_to_boxes toBoxes{anySet().set, nearest.count};
+    checked(allpairs_world_find_nearest_to_boxes(world, &toBoxes, &wanted, &neighbors));
   }
 
   void betweenWorlds() {

@@ -187,13 +187,15 @@ allpairs_status allpairs_world_find_nearest_many(allpairs_world* world, const al
   });
 }
 
-allpairs_status allpairs_world_find_nearest_to_boxes(allpairs_world* world, const allpairs_set* boxes, size_t count,
+allpairs_status allpairs_world_find_nearest_to_boxes(allpairs_world* world, const allpairs_nearest_to_boxes* nearest,
                                                      const allpairs_query_filter* filter,
                                                      allpairs_neighbor_lists* lists) {
   return guarded([&] {
     allpairs_neighbor_lists& result = required(lists, "lists");
+    const allpairs_nearest_to_boxes& wanted = required(nearest, "nearest");
+    const allpairs::BoxView& boxes = required(wanted.boxes, "nearest.boxes").boxes;
     auto& found = required(world, "world").found.neighborLists;
-    found = CallingBack(world).world().findNearest(required(boxes, "boxes").boxes, count, filterOf(world, filter));
+    found = CallingBack(world).world().findNearest(boxes, wanted.count, filterOf(world, filter));
     result = toC<allpairs_neighbor_lists>(found);
   });
 }

@@ -239,7 +239,10 @@ TEST(FailedAllocationInC, OfQueries) {
   });
   check([&](Handles& h) { return allpairs_world_sweep_all_many(h.world, {sweeps.data(), 100}, nullptr, &hitLists); });
   check([&](Handles& h) { return allpairs_world_find_nearest_many(h.world, &nearestMany, nullptr, &neighborLists); });
-  check([&](Handles& h) { return allpairs_world_find_nearest_to_boxes(h.world, h.other, 5, nullptr, &neighborLists); });
+  check([&](Handles& h) {
+    const allpairs_nearest_to_boxes toBoxes{h.other, 5};
+    return allpairs_world_find_nearest_to_boxes(h.world, &toBoxes, nullptr, &neighborLists);
+  });
   check([&](Handles& h) { return allpairs_world_find_between(h.world, h.world, &pairs); });
 }
 

@@ -126,7 +126,8 @@ static double squareBetween(const double* a, const double* b) {
 static void boxesAreToldTheirNearest(allpairs_world* many) {
   allpairs_neighbor_lists lists;
   allpairs_set* boxes = setOf(asked, kQueries);
-  ALLPAIRS_CHECK(allpairs_world_find_nearest_to_boxes(many, boxes, kNearest, NULL, &lists) == ALLPAIRS_OK);
+  const allpairs_nearest_to_boxes wanted = {boxes, kNearest};
+  ALLPAIRS_CHECK(allpairs_world_find_nearest_to_boxes(many, &wanted, NULL, &lists) == ALLPAIRS_OK);
   ALLPAIRS_CHECK(lists.count == kQueries && lists.offsets[kQueries] == kNearest * (size_t)kQueries);
   for (size_t i = 0; i < lists.offsets[kQueries]; ++i) {
     const allpairs_neighbor found = lists.data[i];
@@ -176,7 +177,8 @@ static void nonsenseIsNamedAndAnswersNothing(allpairs_world* world) {
   ALLPAIRS_CHECK(refused(allpairs_world_find_all_many(world, nowhere, NULL, &lists), "rays is null"));
   ALLPAIRS_CHECK(refused(allpairs_world_find_first_many(world, rays, NULL, NULL), "hits is null"));
   ALLPAIRS_CHECK(refused(allpairs_world_find_overlapping_many(world, NULL, NULL, NULL), "lists is null"));
-  ALLPAIRS_CHECK(refused(allpairs_world_find_nearest_to_boxes(world, NULL, 1, NULL, &neighbors), "boxes is null"));
+  const allpairs_nearest_to_boxes none = {NULL, 1};
+  ALLPAIRS_CHECK(refused(allpairs_world_find_nearest_to_boxes(world, &none, NULL, &neighbors), "boxes is null"));
 }
 
 int main(void) {

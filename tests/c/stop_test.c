@@ -126,6 +126,7 @@ static allpairs_status queryEach(allpairs_world* world, const allpairs_set* set,
   static allpairs_hit hits[kBoxes];
   const allpairs_rays all = {rays, kBoxes};
   const allpairs_nearest_many nearest = {rows, 2 * (size_t)kBoxes, 3};
+  const allpairs_nearest_to_boxes toBoxes = {set, 3};
   allpairs_id_lists idLists;
   allpairs_hit_lists hitLists;
   allpairs_neighbor_lists neighbors;
@@ -144,7 +145,7 @@ static allpairs_status queryEach(allpairs_world* world, const allpairs_set* set,
     case 3:
       return allpairs_world_find_nearest_many(world, &nearest, NULL, &neighbors);
     case 4:
-      return allpairs_world_find_nearest_to_boxes(world, set, 3, NULL, &neighbors);
+      return allpairs_world_find_nearest_to_boxes(world, &toBoxes, NULL, &neighbors);
     default:
       return allpairs_world_find_between(world, world, &pairs);
   }

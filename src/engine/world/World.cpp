@@ -53,7 +53,12 @@ void checkQueryBox(const Box& box) {
 
 template <class T>
 Box toDouble(const BasicBox<T>& box) {
-  return {{box.min[0], box.min[1], box.min[2]}, {box.max[0], box.max[1], box.max[2]}};
+  Box result;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    result.min[axis] = static_cast<double>(box.min[axis]);
+    result.max[axis] = static_cast<double>(box.max[axis]);
+  }
+  return result;
 }
 
 void checkPoint(const std::array<double, 3>& point, std::size_t index) {
