@@ -681,8 +681,8 @@ ALLPAIRS_C_API allpairs_status allpairs_world_find_nearest_many(allpairs_world* 
                                                                 const allpairs_query_filter* filter,
                                                                 allpairs_neighbor_lists* lists);
 
-/// The result of allpairs_world_find_nearest() for each box of a set; an empty box is near nothing. A set with margins
-/// is an ALLPAIRS_INVALID_ARGUMENT.
+/// The boxes nearest to each box of a set, in the order of allpairs_world_find_nearest(); an empty box is near nothing.
+/// A set with margins is an ALLPAIRS_INVALID_ARGUMENT.
 ALLPAIRS_C_API allpairs_status allpairs_world_find_nearest_to_boxes(allpairs_world* world,
                                                                     const allpairs_nearest_to_boxes* nearest,
                                                                     const allpairs_query_filter* filter,

@@ -100,7 +100,7 @@ class Calls {
   }
 
   allpairs_status createFrom(SetHandle& handle, std::size_t count) {
-    require(checked(allpairs_set_create_f64(nullptr, count, &handle.set)) == ALLPAIRS_INVALID_ARGUMENT, "null is none");
+    require(checked(allpairs_set_create_f64(nullptr, count, &handle.set)) == ALLPAIRS_INVALID_ARGUMENT, "null refused");
     const auto last = static_cast<std::ptrdiff_t>(6 * (count - 1));
     const float* f = handle.float32.data();
     const double* d = handle.float64.data();

@@ -107,8 +107,8 @@ struct WorldPairsView {
 ///            each box of one world: then it holds for all. Order::Unordered with shared boxes gives Order::ByFirst.
 /// Bad input: as for OverlapSearch.
 /// Cost:      in worlds of up to a few hundred boxes all pairs are tested, n(n-1)/2 a world; larger ones are searched
-///            as OverlapSearch does. 8 bytes a pair and a world. On the calling thread a second search of the same size
-///            allocates nothing, unless shared boxes are given with a filter.
+///            as OverlapSearch does. 8 bytes a pair and a world, for list() 16 a world. On the calling thread a second
+///            search of the same size allocates nothing, unless shared boxes are given with a filter.
 /// Threads:   one search at a time per object; worlds are divided among the threads of the options' executor, and one
 ///            of many boxes is itself searched by all. Results never depend on threads.
 /// Memory:    as for OverlapSearch.

@@ -277,8 +277,8 @@ struct Kernels {
   BlockRead (*readWide64)(const BoxPlaces<double>& places, const Widening& widening, LaneBlock& block);
 
   /// Which of sixteen boxes a query may hit, as bits: a superset of the hits. If a number is requested, it is a lower
-  /// bound for each of them: of the time of the hit, or of the squared distance. A point is a box that
-  /// contains it.
+  /// bound for each of them: of the time of the hit, or of the squared distance. A point
+  /// or a box is given as lanes that contain it.
   std::uint32_t (*touchingLanes)(const LaneBlock& block, const LaneBox& box);
   std::uint32_t (*markedLanes)(const LaneBlock& block, const MarkedCells& cells);
   std::uint32_t (*meetingLanes)(const LaneBlock& block, const SweepLanes& sweep, float limit, float* times);

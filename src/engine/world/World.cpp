@@ -3,7 +3,6 @@
 
 #include <atomic>
 #include <cmath>
-#include <limits>
 #include <mutex>
 #include <string>
 #include <type_traits>

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstddef>
+#include <cstdint>
 #include <numeric>
 #include <tuple>
 
@@ -163,27 +164,43 @@ void sortIds(std::span<BoxId> ids) {
 /// Queries of a batch, by their indices.
 using Queries = std::span<const CurveKey>;
 
-/// Prefetches an object of at most two cache lines.
+// What a batch asks about: boxes, points, rays or sweeps. Where query i starts, and a prefetch of its memory.
+
+std::array<double, 3> startOf(const BoxView& boxes, std::size_t i) { return boxes[i].min; }
+std::array<double, 3> startOf(std::span<const std::array<double, 3>> points, std::size_t i) { return points[i]; }
+template <class Query>
+std::array<double, 3> startOf(std::span<const Query> queries, std::size_t i) {
+  return sweepOf(queries[i]).box.min;
+}
+
+/// Its first and its last line.
 template <class T>
 void prefetchObject(const T& object) noexcept {
   prefetchLine(&object);
   prefetchLine(reinterpret_cast<const std::byte*>(&object + 1) - 1);
 }
 
-/// Calls use(query) for some queries. They lie in no order: prefetch(query) is called some before.
+void prefetchQuery(const BoxView& boxes, std::uint32_t i) noexcept { prefetchBox(boxes, i); }
+template <class T>
+void prefetchQuery(std::span<const T> queries, std::uint32_t i) noexcept {
+  prefetchObject(queries[i]);
+}
+
+/// Calls use(query) for some queries, which lie in no order; prefetch(query) comes kPrefetchDistance queries before.
 template <class Prefetch, class Use>
 void eachQuery(Queries queries, const Prefetch& prefetch, const Use& use) {
-  for (std::size_t i = 0; i < queries.size(); ++i) {
-    prefetch(indexOf(queries[std::min(i + kPrefetchDistance, queries.size() - 1)]));
-    use(indexOf(queries[i]));
+  for (std::size_t i = 0; i < queries.size() + kPrefetchDistance; ++i) {
+    if (i < queries.size()) prefetch(indexOf(queries[i]));
+    if (i >= kPrefetchDistance) use(indexOf(queries[i - kPrefetchDistance]));
   }
 }
 
 /// Finds the values of some queries one after the other: find(query, values) appends those of one.
-template <class Prefetch, class Find>
-auto oneByOne(const Prefetch& prefetch, const Find& find) {
-  return [prefetch, find](Queries queries, auto& values, std::size_t* sizes) {
-    eachQuery(queries, prefetch, [&](std::size_t query) {
+template <class Input, class Find>
+auto oneByOne(const Input& input, const Find& find) {
+  return [&input, find](Queries queries, auto& values, std::size_t* sizes) {
+    const auto prefetch = [&](std::uint32_t query) { prefetchQuery(input, query); };
+    eachQuery(queries, prefetch, [&](std::uint32_t query) {
       const std::size_t before = values.size();
       find(query, values);
       sizes[query] = values.size() - before;
@@ -231,15 +248,15 @@ void WorldQueries::eachBvh(const Visit& visit) const {
 }
 
 /// The order in which a batch is answered: queries that start near each other are consecutive, for cache locality.
-template <class PointOf>
-std::vector<CurveKey> WorldQueries::orderOf(std::size_t queries, const PointOf& pointOf) const {
-  std::vector<BoxF> starts(queries);
-  for (std::size_t i = 0; i < queries; ++i) {
-    const std::array<double, 3> point = pointOf(i);
+template <class Input>
+std::vector<CurveKey> WorldQueries::orderOf(const Input& input) const {
+  std::vector<BoxF> starts(input.size());
+  for (std::size_t i = 0; i < starts.size(); ++i) {
+    const std::array<double, 3> point = startOf(input, i);
     starts[i].min = starts[i].max = {roundDown(point[0]), roundDown(point[1]), roundDown(point[2])};
   }
   const BoxView boxes(starts);
-  std::vector<CurveKey> spare(queries);
+  std::vector<CurveKey> spare(starts.size());
   HilbertSort sort(defaultMemory());
   CallExecutor call;
   const std::span<const CurveKey> order = sort.sort({boxes, {}, m_search.kernels()}, spare, m_search.begin(call));
@@ -256,17 +273,17 @@ void WorldQueries::answerInOrder(std::span<const CurveKey> order, const Answer& 
   });
 }
 
-/// Answers queries by find(queries, values, sizes), which appends to the values of a task and writes how many each
-/// query has; then gathers them by query.
-template <class T, class PointOf, class Find>
-ResultLists<T> WorldQueries::findEach(std::size_t queries, const PointOf& pointOf, const Find& find) const {
-  const std::vector<CurveKey> order = orderOf(queries, pointOf);
-  std::vector<std::vector<T>> parts((queries + kQueriesPerTask - 1) / kQueriesPerTask);
+/// Answers the queries of a batch by find(queries, values, sizes), which appends to the values of a task and writes how
+/// many each query has; then gathers them by query.
+template <class T, class Input, class Find>
+ResultLists<T> WorldQueries::findEach(const Input& input, const Find& find) const {
+  const std::vector<CurveKey> order = orderOf(input);
+  std::vector<std::vector<T>> parts((order.size() + kQueriesPerTask - 1) / kQueriesPerTask);
   ResultLists<T> lists;
-  lists.offsets.assign(queries + 1, 0);
+  lists.offsets.assign(order.size() + 1, 0);
   answerInOrder(order, [&](std::size_t task, Queries some) { find(some, parts[task], lists.offsets.data() + 1); });
   sumUp(lists.offsets);
-  lists.values.resize(lists.offsets[queries]);
+  lists.values.resize(lists.offsets.back());
   answerInOrder(order, [&](std::size_t task, Queries some) {
     const T* from = parts[task].data();
     for (const CurveKey key : some) {
@@ -417,8 +434,7 @@ void WorldQueries::nearest(const Box& query, std::size_t count, std::vector<Neig
 /// Of no more queries than one task answers, neither an order nor tasks pay.
 ResultLists<BoxId> WorldQueries::overlapping(const BoxView& boxes) const {
   const bool areTogether = canAskTogether();
-  const auto prefetch = [&](std::size_t i) { prefetchBox(boxes, static_cast<std::uint32_t>(i)); };
-  const auto alone = oneByOne(prefetch, [&](std::size_t i, std::vector<BoxId>& ids) { overlapping(boxes[i], ids); });
+  const auto alone = oneByOne(boxes, [&](std::size_t i, std::vector<BoxId>& ids) { overlapping(boxes[i], ids); });
   const auto find = [&](Queries queries, std::vector<BoxId>& ids, std::size_t* sizes) {
     if (!areTogether) return alone(queries, ids, sizes);
     for (std::size_t begin = 0; begin < queries.size(); begin += kTogether) {
@@ -430,10 +446,7 @@ ResultLists<BoxId> WorldQueries::overlapping(const BoxView& boxes) const {
       if (askers.count != 0) overlapping(askers, ids);
     }
   };
-  if (boxes.size() > kQueriesPerTask) {
-    return findEach<BoxId>(
-        boxes.size(), [&](std::size_t i) { return boxes[i].min; }, find);
-  }
+  if (boxes.size() > kQueriesPerTask) return findEach<BoxId>(boxes, find);
   checkStop(m_search.stop());
   std::array<CurveKey, kQueriesPerTask> order;
   std::iota(order.begin(), order.end(), CurveKey{0});
@@ -446,13 +459,12 @@ ResultLists<BoxId> WorldQueries::overlapping(const BoxView& boxes) const {
 
 template <class Query>
 void WorldQueries::first(std::span<const Query> queries, std::span<SweepHit> hits) const {
-  const auto order = orderOf(queries.size(), [&](std::size_t i) { return sweepOf(queries[i]).box.min; });
-  answerInOrder(order, [&](std::size_t, Queries some) {
-    const auto prefetch = [&](std::size_t i) {
-      prefetchObject(queries[i]);
+  answerInOrder(orderOf(queries), [&](std::size_t, Queries some) {
+    const auto prefetch = [&](std::uint32_t i) {
+      prefetchQuery(queries, i);
       prefetchObject(hits[i]);
     };
-    eachQuery(some, prefetch, [&](std::size_t i) { hits[i] = first(sweepOf(queries[i])); });
+    eachQuery(some, prefetch, [&](std::uint32_t i) { hits[i] = first(sweepOf(queries[i])); });
   });
 }
 template void WorldQueries::first(std::span<const Ray>, std::span<SweepHit>) const;
@@ -461,27 +473,21 @@ template void WorldQueries::first(std::span<const BoxSweep>, std::span<SweepHit>
 template <class Query>
 ResultLists<SweepHit> WorldQueries::all(std::span<const Query> queries) const {
   return findEach<SweepHit>(
-      queries.size(), [&](std::size_t i) { return sweepOf(queries[i]).box.min; },
-      oneByOne([&](std::size_t i) { prefetchObject(queries[i]); },
-               [&](std::size_t i, std::vector<SweepHit>& hits) { all(sweepOf(queries[i]), hits); }));
+      queries, oneByOne(queries, [&](std::size_t i, std::vector<SweepHit>& hits) { all(sweepOf(queries[i]), hits); }));
 }
 template ResultLists<SweepHit> WorldQueries::all(std::span<const Ray>) const;
 template ResultLists<SweepHit> WorldQueries::all(std::span<const BoxSweep>) const;
 
 ResultLists<Neighbor> WorldQueries::nearest(std::span<const std::array<double, 3>> points, std::size_t count) const {
-  return findEach<Neighbor>(
-      points.size(), [&](std::size_t i) { return points[i]; },
-      oneByOne([&](std::size_t i) { prefetchObject(points[i]); },
-               [&](std::size_t i, std::vector<Neighbor>& neighbors) {
-                 nearest(Box{points[i], points[i]}, count, neighbors);
-               }));
+  return findEach<Neighbor>(points, oneByOne(points, [&](std::size_t i, std::vector<Neighbor>& neighbors) {
+                              nearest(Box{points[i], points[i]}, count, neighbors);
+                            }));
 }
 
 ResultLists<Neighbor> WorldQueries::nearest(const BoxView& boxes, std::size_t count) const {
-  return findEach<Neighbor>(
-      boxes.size(), [&](std::size_t i) { return boxes[i].min; },
-      oneByOne([&](std::size_t i) { prefetchBox(boxes, static_cast<std::uint32_t>(i)); },
-               [&](std::size_t i, std::vector<Neighbor>& neighbors) { nearest(boxes[i], count, neighbors); }));
+  return findEach<Neighbor>(boxes, oneByOne(boxes, [&](std::size_t i, std::vector<Neighbor>& neighbors) {
+                              nearest(boxes[i], count, neighbors);
+                            }));
 }
 
 }  // namespace allpairs::engine

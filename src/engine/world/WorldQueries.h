@@ -39,12 +39,12 @@ class WorldQueries {
   [[nodiscard]] ResultLists<Neighbor> nearest(const BoxView& boxes, std::size_t count) const;
 
  private:
-  template <class PointOf>
-  [[nodiscard]] std::vector<CurveKey> orderOf(std::size_t queries, const PointOf& pointOf) const;
+  template <class Input>
+  [[nodiscard]] std::vector<CurveKey> orderOf(const Input& input) const;
   template <class Answer>
   void answerInOrder(std::span<const CurveKey> order, const Answer& answer) const;
-  template <class T, class PointOf, class Find>
-  [[nodiscard]] ResultLists<T> findEach(std::size_t queries, const PointOf& pointOf, const Find& find) const;
+  template <class T, class Input, class Find>
+  [[nodiscard]] ResultLists<T> findEach(const Input& input, const Find& find) const;
 
   struct Askers;
   [[nodiscard]] bool canAskTogether() const;

@@ -77,7 +77,7 @@ struct WorldsSearch::State {
   OverlapOptions options;
   engine::WorldsSearcher own;
   engine::SharedSearcher shared;
-  std::pmr::vector<std::uint64_t> given;  ///< Copied: offsets that count() gave are overwritten by the next search.
+  std::pmr::vector<std::uint64_t> given;  ///< The offsets that list() was given.
   OverlapStatistics statistics;
   engine::InUse inUse;
 
@@ -89,6 +89,25 @@ struct WorldsSearch::State {
     const auto found = use();
     statistics = searcher.statistics();
     return found;
+  }
+
+  /// Calls write(), which writes pairs where the offsets say and returns the offsets of those that it found; throws
+  /// unless they are the same. The offsets are copied: those that count() gave are overwritten by the next search.
+  template <class Write>
+  void writeAt(const Worlds& worlds, std::span<const std::uint64_t> begin, std::span<Pair> pairs, const Write& write) {
+    if (begin.size() != worlds.size() + 1 || begin[0] != 0 || !std::is_sorted(begin.begin(), begin.end())) {
+      throw InvalidArgument("the offsets of pairs are not those that count() gives: one more than the " +
+                            std::to_string(worlds.size()) + " worlds, from 0 on, ascending");
+    }
+    if (pairs.size() < begin.back()) {
+      throw InvalidArgument("memory for " + std::to_string(pairs.size()) + " pairs, but there are " +
+                            std::to_string(begin.back()));
+    }
+    given.assign(begin.begin(), begin.end());
+    const std::span<const std::uint64_t> found = write();
+    if (!std::equal(given.begin(), given.end(), found.begin(), found.end())) {
+      throw InvalidArgument("the offsets of pairs are not those of these worlds; count them first");
+    }
   }
 };
 
@@ -141,41 +160,16 @@ Span<const std::uint64_t> WorldsSearch::count(const Worlds& worlds, const BoxVie
   return state.run(state.shared, [&] { return state.shared.count(worlds, shared, state.options); });
 }
 
-namespace {
-
-/// Calls write(), which writes pairs where the offsets say and returns the offsets of those that it found; throws
-/// unless they are the same.
-template <class Write>
-void writeAt(const Worlds& worlds, std::span<const std::uint64_t> begin, std::span<Pair> pairs, const Write& write) {
-  if (begin.size() != worlds.size() + 1 || begin[0] != 0 || !std::is_sorted(begin.begin(), begin.end())) {
-    throw InvalidArgument("the offsets of pairs are not those that count() gives: one more than the " +
-                          std::to_string(worlds.size()) + " worlds, from 0 on, ascending");
-  }
-  if (pairs.size() < begin.back()) {
-    throw InvalidArgument("memory for " + std::to_string(pairs.size()) + " pairs, but there are " +
-                          std::to_string(begin.back()));
-  }
-  const std::span<const std::uint64_t> found = write();
-  if (!std::equal(begin.begin(), begin.end(), found.begin(), found.end())) {
-    throw InvalidArgument("the offsets of pairs are not those of these worlds; count them first");
-  }
-}
-
-}  // namespace
-
 void WorldsSearch::list(const Worlds& worlds, Span<const std::uint64_t> begin, Span<Pair> pairs) {
   State& state = this->state();
-  state.given.assign(begin.begin(), begin.end());
-  writeAt(worlds, state.given, pairs, [&] {
+  state.writeAt(worlds, begin, pairs, [&] {
     return state.run(state.own, [&] { return state.own.list(worlds, state.options, state.given, pairs); });
   });
 }
 
 void WorldsSearch::list(const Worlds& worlds, const BoxView& shared, Span<const std::uint64_t> begin,
                         Span<Pair> pairs) {
-  State& state = this->state();
-  state.given.assign(begin.begin(), begin.end());
-  writeAt(worlds, state.given, pairs, [&] {
+  state().writeAt(worlds, begin, pairs, [&] {
     const WorldPairsView found = find(worlds, shared);
     std::copy_n(found.pairs.begin(), std::min(found.pairs.size(), pairs.size()), pairs.begin());
     return found.begin;
