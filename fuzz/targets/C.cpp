@@ -383,7 +383,7 @@ class Calls {
     checked(allpairs_world_find_overlapping(world, moving.box, maybeNull(&wanted), &ids));
     require(ids.count <= allpairs_world_size(world), "no box is found twice");
     if (checked(allpairs_world_find_first(world, &way, &wanted, &first)) == ALLPAIRS_OK) {
-      require(checked(allpairs_world_find_all(world, &way, &wanted, &hits)) == ALLPAIRS_OK, "all hits are found");
+      require(checked(allpairs_world_find_all(world, &way, &wanted, &hits)) == ALLPAIRS_OK, "a ray's hits are found");
       compareFirst(first, hits);
     }
     if (checked(allpairs_world_sweep_first(world, &moving, &wanted, &first)) == ALLPAIRS_OK) {

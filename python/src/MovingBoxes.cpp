@@ -107,7 +107,7 @@ void askOf(const py::buffer_info& info, const Ask& ask) {
   }
 }
 
-/// Rows that are wide or narrow.
+/// Requests a buffer of rows of one of two widths.
 py::buffer_info requestRows(const py::buffer& rows, py::ssize_t wide, py::ssize_t narrow) {
   const py::buffer_info info = rows.request();
   return requestBuffer(rows, {"d", info.ndim == 2 && info.shape[1] == wide ? wide : narrow});
