@@ -84,8 +84,10 @@ CLI::Option* addDistance(CLI::App& command, std::string& distance, const std::st
   return command.add_option("--distance", distance, description)->type_name("D");
 }
 
-void addThreads(CLI::App& command, std::string& threads) {
-  command.add_option("--threads", threads, "Number of threads; 0: one per core")->type_name("N")->capture_default_str();
+CLI::Option* addThreads(CLI::App& command, std::string& threads) {
+  return command.add_option("--threads", threads, "Number of threads; 0: one per core")
+      ->type_name("N")
+      ->capture_default_str();
 }
 
 void takeCount(CLI::Option& option) {

@@ -52,7 +52,7 @@ CLI::Option* addChoice(CLI::App& command, const std::string& name, std::string& 
 CLI::Option* addDistance(CLI::App& command, std::string& distance, const std::string& description);
 
 /// Declares --threads N, whose value parseThreads() takes.
-void addThreads(CLI::App& command, std::string& threads);
+CLI::Option* addThreads(CLI::App& command, std::string& threads);
 
 /// Lets an option that counts something take whole numbers only, those like 1e6 too.
 void takeCount(CLI::Option& option);

@@ -144,6 +144,10 @@ void Output::write(std::string_view bytes) {
   }
 }
 
+void Output::sync() const {
+  if (isFile() && ::fsync(m_descriptor) != 0) fail("written");
+}
+
 void Output::complete() {
   if (m_target.empty() || m_descriptor < 0) return;
   if (m_isNameless) giveName();

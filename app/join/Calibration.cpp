@@ -89,6 +89,7 @@ JoinCost measureJoinCost(const fs::path& work, const join::JoinSummary& plan, jo
   writeBoxes(input[0], boxesFor(plan, options.memory));
   options.work = folder.file("work");
   options.second.clear();
+  options.distance = 0.0;  // one of the user's units may be more than the whole scene
   options.region.reset();
   options.values = {};
   options.secondValues = {};
@@ -98,7 +99,7 @@ JoinCost measureJoinCost(const fs::path& work, const join::JoinSummary& plan, jo
   const join::JoinSummary done = join::joinFiles(input, folder.file("pairs.npy"), options);
   const double joining = timer.seconds() - counting;
   return {counting / static_cast<double>(done.boxes + done.copies),
-          std::max(0.0, joining - counting) / static_cast<double>(done.pairs)};
+          std::max(0.0, joining - counting) / static_cast<double>(std::max<std::uint64_t>(done.pairs, 1))};
 }
 
 }  // namespace allpairs::app

@@ -116,9 +116,12 @@ void runJoin(const JoinSettings& settings) {
   const std::unique_ptr<Executor> executor = executorOf(settings.threads);
   options.executor = executor.get();
   options.resume = settings.resume;
+  std::optional<Output> output;
+  if (!settings.count) output.emplace(targetOf(settings.output));
+  if (output && output->isTerminal()) throw UsageError("pairs are binary and not written to a terminal: use -o FILE");
+  const bool isFile = output && output->isFile();
   options.work = settings.work;
-  if (options.work.empty())
-    options.work = (settings.output.empty() ? settings.shared.sets.paths.front() : settings.output) + ".work";
+  if (options.work.empty()) options.work = (isFile ? settings.output : settings.shared.sets.paths.front()) + ".work";
   JoinLine line;
   options.progress = [&line](const join::JoinProgress& progress) { line.show(progress); };
   join::JoinSummary summary;
@@ -127,12 +130,13 @@ void runJoin(const JoinSettings& settings) {
     if (settings.count) {
       summary = join::countFiles(inputs, options);
     } else {
-      Output output(targetOf(settings.output));
-      if (output.isTerminal()) throw UsageError("pairs are binary and not written to a terminal: use -o FILE");
-      options.commit = [&output] { output.commit(); };
+      options.commit = [&output] {
+        output->sync();
+        output->commit();
+      };
       options.output = settings.output;
       summary = join::joinFiles(
-          inputs, [&output](std::string_view bytes) { output.write(bytes); }, options);
+          inputs, [&output](std::string_view bytes) { output->write(bytes); }, options);
     }
   } catch (const FileError& problem) {
     if (settings.work.empty() && isForAnotherFolder(problem, options.work))
@@ -148,7 +152,7 @@ void runJoin(const JoinSettings& settings) {
   line.clear();
   warnOfEmpty(settings.shared, summary.empty);
   const std::string text = summaryText(summary, settings.output, !options.second.empty());
-  if (settings.count || std::filesystem::is_regular_file(settings.output)) {
+  if (settings.count || isFile) {
     Output(std::nullopt).write(text);
   } else {
     fmt::print(stderr, "{}", text);  // standard output may be the result

@@ -101,12 +101,14 @@ void addPlan(CLI::App& program) {
   CLI::App* command = program.add_subcommand("plan", "What a join would take: cells, copies, disk, time");
   command->footer(kPlanExamples);
   addJoinArguments(*command, settings->shared);
-  command->add_option("--work", settings->work, "The folder that a join would work in; default: this one")
-      ->type_name("DIR");
+  CLI::Option* const work =
+      command->add_option("--work", settings->work, "The folder that a join would work in; default: this one");
+  work->type_name("DIR");
   CLI::Option* const ranks = command->add_option("--ranks", settings->ranks, "What so many ranks of MPI would send");
   ranks->type_name("N");
   takeNumber(*ranks, 1, 1'000'000);
-  addThreads(*command, settings->threads);
+  CLI::Option* const threads = addThreads(*command, settings->threads);
+  ranks->excludes(work)->excludes(threads);
   command->callback([settings] { runPlan(*settings); });
 }
 

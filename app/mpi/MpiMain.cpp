@@ -77,12 +77,12 @@ class Join {
 
   void run() {
     check();
-    const std::size_t threads = allpairs::app::parseThreads(m_settings.threads);
-    allpairs::parallel::TbbExecutor executor(threads);
+    std::optional<allpairs::parallel::TbbExecutor> executor;
+    const std::size_t threads = makeExecutor(executor);
     allpairs::mpi::DistributedOptions options;
     if (!m_settings.sets.box.empty()) options.region = allpairs::app::parseRegion(m_settings.sets.box);
     if (!m_settings.distance.empty()) options.distance = allpairs::app::parseDistance(m_settings.distance);
-    if (threads != 1) options.executor = &executor;
+    if (threads != 1) options.executor = &*executor;
     std::optional<allpairs::app::PairFile> output;  // before all else: a place that cannot be written is an error now
     if (!m_settings.count) output.emplace(MPI_COMM_WORLD, m_settings.output);
     std::optional<allpairs::app::BoxShare> first;
@@ -115,6 +115,24 @@ class Join {
   }
 
  private:
+  /// Each rank has threads of its own: a number that is wrong on one of them is wrong usage on all.
+  std::size_t makeExecutor(std::optional<allpairs::parallel::TbbExecutor>& executor) const {
+    std::size_t threads = 1;
+    try {
+      allpairs::mpi::onAllRanks(MPI_COMM_WORLD, [&] {
+        try {
+          threads = allpairs::app::parseThreads(m_settings.threads);
+        } catch (const UsageError& problem) {
+          throw allpairs::InvalidArgument(problem.what());  // which arrives on other ranks as what it is
+        }
+        executor.emplace(threads);
+      });
+    } catch (const allpairs::InvalidArgument& problem) {
+      throw UsageError(problem.what());
+    }
+    return threads;
+  }
+
   void check() const {
     const std::string& output = m_settings.output;
     if (output.empty() && !m_settings.count) throw UsageError("join takes -o FILE, or --count");
@@ -168,17 +186,20 @@ void print(const std::string& text) {
   if (std::fflush(stdout) != 0) throw allpairs::FileError("standard output", "cannot be written");
 }
 
-/// The arguments in one text, without how many threads a rank has, which need not be equal.
+/// The arguments in one text, without how many threads a rank has, which need not be equal where it is said once.
 std::string comparable(const std::vector<std::string>& arguments) {
   const auto isNumber = [](const std::string& text) {
     return !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
   };
   const std::string threads = "--threads=";
   std::string text;
+  bool isSaid = false;
   for (std::size_t i = 0; i < arguments.size(); ++i) {
-    if (arguments[i].starts_with(threads) && isNumber(arguments[i].substr(threads.size()))) continue;
-    if (arguments[i] == "--threads" && i + 1 < arguments.size() && isNumber(arguments[i + 1])) {
-      ++i;
+    const bool isOne = arguments[i].starts_with(threads) && isNumber(arguments[i].substr(threads.size()));
+    const bool isOfTwo = arguments[i] == "--threads" && i + 1 < arguments.size() && isNumber(arguments[i + 1]);
+    if (!isSaid && (isOne || isOfTwo)) {
+      isSaid = true;
+      if (isOfTwo) ++i;
       continue;
     }
     text += arguments[i];

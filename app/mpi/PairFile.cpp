@@ -40,10 +40,10 @@ fs::path checkedTarget(const fs::path& target) {
 
 PairFile::PairFile(MPI_Comm communicator, const fs::path& target) : m_communicator(communicator), m_target(target) {
   MPI_Comm_rank(communicator, &m_rank);
-  mpi::onAllRanks(communicator, [this] {
-    if (m_rank == 0) create();
-  });
   try {
+    mpi::onAllRanks(communicator, [this] {
+      if (m_rank == 0) create();
+    });
     shareName();
   } catch (...) {
     close();

@@ -177,11 +177,15 @@ def join(
     return JoinSummary(*_reading.join_files(names, target, options, _arguments.threads_of(threads)))
 
 
+def _exact(ids: npt.ArrayLike) -> npt.ArrayLike:
+    """Ids of which NumPy makes no floats, as it does of large integers in a list."""
+    if not isinstance(ids, (list, tuple)):
+        return ids
+    return np.array([_arguments.whole("ids", number) for number in ids], dtype=np.uint64)
+
+
 def _ids_of(value: npt.ArrayLike, length: int, prefix: str = "") -> npt.NDArray[np.uint64]:
-    if isinstance(value, (list, tuple)):  # of large integers NumPy would make floats
-        numbers = [_arguments.whole("ids", number) for number in value]
-        value = np.array(numbers, dtype=np.uint64)
-    array = _arguments.array_of("ids", value)
+    array = _arguments.array_of("ids", _exact(value))
     if array.shape != (length,):
         raise InvalidArgument(f"{prefix}ids has shape {array.shape}; for {length} boxes it takes ({length},)")
     return _arguments.uint64(f"{prefix}ids", array)
@@ -191,7 +195,7 @@ def _by_id(values: dict[str, Any]) -> dict[str, Any]:
     """The boxes in the order of their ids, in which the margins of two are added up; all as it is where that is the same."""
     if values["margin"] is None or _arguments.is_one(values["margin"]):
         return values
-    ids = _arguments.array_of("ids", values["ids"])
+    ids = _arguments.array_of("ids", _exact(values["ids"]))
     if ids.ndim != 1 or ids.dtype.kind not in "iu" or (ids[1:] >= ids[:-1]).all():
         return values
     order = np.argsort(ids, kind="stable")
@@ -323,7 +327,7 @@ def count_in_cell(
 ) -> int:
     """The number of pairs of `overlaps_in_cell`; uses memory independent of that number.
 
-    The parameters are those of `overlaps_in_cell`.
+    The parameters are those of `overlaps_in_cell`. Boxes whose margins differ are in the order of their ids.
 
     Examples
     --------

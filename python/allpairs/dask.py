@@ -141,20 +141,26 @@ def _merge(found: list[Array]) -> Array:
     return ordered
 
 
-def _write(pairs: Array, path: str, call: str) -> int:
-    """The file appears when it is complete, whoever else writes it too; until then it has another name, with the call's id in it."""
+def _write(pairs: Array, path: str, call: str) -> tuple[str, int]:
+    """Writes a part beside its place, whoever else writes it too: the name has the call's id in it, and one of its own."""
     beside = f"{path}.{call}-{uuid4().hex}.part"
     try:
         with open(beside, "xb") as file:
             np.save(file, pairs)
-        os.replace(beside, path)
     except BaseException as problem:
         with suppress(OSError):
             os.remove(beside)
         if isinstance(problem, OSError):
             raise file_error(path, f"cannot be written: {reason(problem)}", problem) from None
         raise
-    return len(pairs)
+    return beside, len(pairs)
+
+
+def _put(beside: str, path: str) -> None:
+    try:
+        os.replace(beside, path)
+    except OSError as problem:
+        raise file_error(path, f"cannot be written: {reason(problem)}", problem) from None
 
 
 def _names_in(folder: Path, count: int) -> list[str]:
@@ -171,18 +177,23 @@ def _names_in(folder: Path, count: int) -> list[str]:
 
 
 def _written(merged: list[Any], output: PathLike) -> int:
-    """Computes the parts of a result into files of a folder, and returns the number of pairs."""
+    """Computes the parts of a result into files of a folder, and returns the number of pairs. The files get their names
+    when all are complete: a failure before leaves what was there."""
     folder = Path(os.path.abspath(_arguments.path_of("output", output)))
     names = _names_in(folder, len(merged))
     call = uuid4().hex
     try:
-        counts: Iterable[int] = compute(*[delayed(_write)(pairs, name, call) for pairs, name in zip(merged, names)])
+        parts: Iterable[tuple[str, int]] = compute(
+            *[delayed(_write)(pairs, name, call) for pairs, name in zip(merged, names)]
+        )
+        for (beside, _), name in zip(parts, names):
+            _put(beside, name)
     finally:
         with suppress(OSError):
             for left in list(folder.glob(f"part-*.npy.{call}-*.part")):  # by workers that were killed
                 with suppress(OSError):
                     left.unlink()
-    return sum(counts)
+    return sum(count for _, count in parts)
 
 
 def _picked(items: Any, index: int) -> Any:
@@ -288,7 +299,8 @@ def overlaps(
         sets are numbered by themselves.
     output : path of a folder
         Write the pairs there, as part-00000.npy and so on, and return their number. Parts of a result with more parts
-        must not be there. What workers that were killed had begun to write is removed at the end; if this process itself is
+        must not be there. The parts get their names when all are written: a failure before leaves those of an earlier
+        result. What workers that were killed had begun to write is removed at the end; if this process itself is
         killed, files that end in .part may stay, which nothing reads.
     distance, region
         As in `allpairs.overlaps`.

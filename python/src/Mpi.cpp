@@ -14,6 +14,7 @@
 #include "IdPairArray.h"
 #include "Options.h"
 #include "allpairs/mpi/DistributedOverlaps.h"
+#include "allpairs/mpi/OnAllRanks.h"
 
 namespace allpairs::python {
 namespace py = pybind11;
@@ -22,7 +23,8 @@ namespace {
 /// A search over the communicator that has this handle in Fortran, which is a number in every MPI.
 class DistributedSearch {
  public:
-  DistributedSearch(MPI_Fint handle, const Options& options) : m_executor(executorOf(options.threads)) {
+  DistributedSearch(MPI_Fint handle, const Options& options) {
+    mpi::onAllRanks(MPI_Comm_f2c(handle), [&] { m_executor = executorOf(options.threads); });
     const OverlapOptions& given = options.engine;
     const mpi::DistributedOptions settings{.distance = given.distance,
                                            .region = given.region,
@@ -33,7 +35,7 @@ class DistributedSearch {
     m_search = std::make_unique<mpi::DistributedOverlaps>(MPI_Comm_f2c(handle), settings);
   }
 
-  [[nodiscard]] std::unique_ptr<OffsetArray> find(const Boxes& first, const Boxes* second) {
+  [[nodiscard]] std::unique_ptr<IdPairArray> find(const Boxes& first, const Boxes* second) {
     const ReleasedGil released;
     return arrayOf(second != nullptr ? m_search->find(first.set(), second->set()) : m_search->find(first.set()));
   }

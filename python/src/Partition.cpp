@@ -45,29 +45,27 @@ py::buffer_info idsOf(const py::buffer& ids) {
   return held;
 }
 
-std::unique_ptr<OffsetArray> overlapsInCell(const Boxes& boxes, const py::buffer& ids, const Bounds& cell,
+std::unique_ptr<IdPairArray> overlapsInCell(const Boxes& boxes, const py::buffer& ids, const Bounds& cell,
                                             Options& options) {
   const py::buffer_info held = idsOf(ids);
-  const std::vector<IdPair> pairs = options.run(boxes.set().size(), [&](const OverlapOptions& settings) {
+  return arrayOf(options.run(boxes.set().size(), [&](const OverlapOptions& settings) {
     return partition::overlapsInCell(boxes.set(), valuesOf<std::uint64_t>(held), cellOf(cell), settings);
-  });
-  return arrayOf(pairs);
+  }));
 }
 
 /// Boxes and their ids.
 using Identified = std::pair<const Boxes*, py::buffer>;
 
-std::unique_ptr<OffsetArray> overlapsBetweenInCell(const Identified& first, const Identified& second,
+std::unique_ptr<IdPairArray> overlapsBetweenInCell(const Identified& first, const Identified& second,
                                                    const Bounds& cell, Options& options) {
   const py::buffer_info firstIds = idsOf(first.second);
   const py::buffer_info secondIds = idsOf(second.second);
   const BoxView& a = first.first->set();
   const BoxView& b = second.first->set();
-  const std::vector<IdPair> pairs = options.run(a.size() + b.size(), [&](const OverlapOptions& settings) {
+  return arrayOf(options.run(a.size() + b.size(), [&](const OverlapOptions& settings) {
     return partition::overlapsInCell(a, valuesOf<std::uint64_t>(firstIds), b, valuesOf<std::uint64_t>(secondIds),
                                      cellOf(cell), settings);
-  });
-  return arrayOf(pairs);
+  }));
 }
 
 std::uint64_t countInCell(const Boxes& boxes, const Bounds& cell, Options& options) {
@@ -133,6 +131,7 @@ std::unique_ptr<OffsetArray> cellsOfBoxes(const Partition& partition, const Boxe
 }  // namespace
 
 void bindPartition(py::module_& module) {
+  const py::class_<IdPairArray> pairs(module, "IdPairArray", tableProtocol<IdPairArray>());
   py::class_<Partition>(module, "Partition")
       .def(py::init([](const Boxes& sample, std::size_t cells, double distance) {
         return stoppably(sample.set().size(), Runs::Alone,

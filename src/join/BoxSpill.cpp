@@ -137,8 +137,9 @@ void BoxSpill::finish() {
   m_buffer = std::vector<std::byte>();
 }
 
-bool BoxSpill::isIntact(std::size_t cell) const {
-  return checksumOf(m_file, positionOf(cell), m_extents[cell].count * m_type.size()) == m_extents[cell].checksum;
+bool BoxSpill::isIntact(std::size_t cell, const StopFlag* stop) const {
+  const std::uint64_t bytes = m_extents[cell].count * m_type.size();
+  return checksumOf(m_file, positionOf(cell), bytes, stop) == m_extents[cell].checksum;
 }
 
 void BoxSpill::read(std::size_t cell, std::uint64_t begin, const Records& records) const {

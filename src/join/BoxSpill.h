@@ -14,6 +14,7 @@
 #include "WorkFile.h"
 #include "allpairs/BoxView.h"
 #include "allpairs/Filter.h"
+#include "allpairs/StopFlag.h"
 
 namespace allpairs::join {
 
@@ -87,7 +88,7 @@ class BoxSpill {
   [[nodiscard]] const std::vector<Extent>& extents() const noexcept { return m_extents; }
 
   /// Whether the boxes of a cell are those that were written.
-  [[nodiscard]] bool isIntact(std::size_t cell) const;
+  [[nodiscard]] bool isIntact(std::size_t cell, const StopFlag* stop) const;
 
   /// Reads the boxes of a cell from `begin` on, as many as there is room for.
   void read(std::size_t cell, std::uint64_t begin, const Records& records) const;

@@ -7,25 +7,24 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <string_view>
 
 namespace allpairs::join {
 
-/// The XXH3 checksum of bytes that come in parts.
+/// The XXH64 checksum of bytes that come in parts. Of each of many cells there is one: it is small.
 class Checksum {
  public:
-  Checksum() : m_state(std::make_unique<XXH3_state_t>()) { XXH3_64bits_reset(m_state.get()); }
+  Checksum() { XXH64_reset(&m_state, 0); }
 
-  void add(const void* bytes, std::size_t count) { XXH3_64bits_update(m_state.get(), bytes, count); }
+  void add(const void* bytes, std::size_t count) { XXH64_update(&m_state, bytes, count); }
 
-  [[nodiscard]] std::uint64_t value() const { return XXH3_64bits_digest(m_state.get()); }
+  [[nodiscard]] std::uint64_t value() const { return XXH64_digest(&m_state); }
 
  private:
-  std::unique_ptr<XXH3_state_t> m_state;
+  XXH64_state_t m_state;
 };
 
 /// That of a text.
-[[nodiscard]] inline std::uint64_t checksumOf(std::string_view text) { return XXH3_64bits(text.data(), text.size()); }
+[[nodiscard]] inline std::uint64_t checksumOf(std::string_view text) { return XXH64(text.data(), text.size(), 0); }
 
 }  // namespace allpairs::join

@@ -2,6 +2,7 @@
 #include "DiskJoin.h"
 
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -96,7 +97,7 @@ JoinSummary DiskJoin::run(const ResultSink* sink) {
     } else {
       finish<std::uint64_t>(sink);
     }
-    if (m_options.commit) m_options.commit();
+    if (sink != nullptr && m_options.commit) m_options.commit();
   } catch (...) {
     if (!fs::exists(file("manifest"))) clearFolder();  // there is nothing to go on with
     throw;
@@ -107,15 +108,22 @@ JoinSummary DiskJoin::run(const ResultSink* sink) {
 
 /// The manifest goes first: what is left without one is nothing to go on with.
 void DiskJoin::clearFolder() {
+  std::error_code ignored;
+  for (const char* name : {"manifest", "manifest.next"}) fs::remove(file(name), ignored);
+  removeParts();
+  fs::remove(file(kLock), ignored);
+  ::rmdir(m_options.work.c_str());  // if it is empty and no link: it may be the user's
+}
+
+/// Boxes, pairs, and what is left of putting pairs in order.
+void DiskJoin::removeParts() {
   m_spill.reset();
   m_runs.file = {};
   std::error_code ignored;
-  for (const char* name : {"manifest", "manifest.next", "boxes", "pairs"}) fs::remove(file(name), ignored);
+  for (const char* name : {"boxes", "pairs"}) fs::remove(file(name), ignored);
   std::string divided = "divided";  // a join that was killed leaves them, one for each time that a range was divided
   for (; fs::remove(file(divided.c_str()), ignored); divided += '-') {
   }
-  fs::remove(file(kLock), ignored);
-  fs::remove(m_options.work, ignored);  // if it is empty: it may be the user's
 }
 
 /// Takes a folder that is empty, or that a join left. A join that ends removes its folder, the lock last: at any time
@@ -191,9 +199,8 @@ bool DiskJoin::hasAllBoxes() {
   if (!fs::exists(file("boxes"))) return false;
   m_spill.emplace(file("boxes"), recordType(), m_manifest.extents);
   for (std::size_t cell = 0; cell < m_manifest.extents.size(); ++cell) {
-    checkStop(m_options.stop);
     report("checking", cell, m_manifest.extents.size());
-    if (!m_spill->isIntact(cell)) return false;
+    if (!m_spill->isIntact(cell, m_options.stop)) return false;
   }
   return true;
 }
@@ -206,9 +213,12 @@ void DiskJoin::dropDamagedCells() {
   }
   m_runs.file = WorkFile(file("pairs"), WorkFile::Mode::Open);
   const auto isIntact = [this](const Run& run) {
-    return checksumOf(m_runs.file, run.position, bytesOf(run, m_ranges, pairSize())) == run.checksum;
+    return checksumOf(m_runs.file, run.position, bytesOf(run, m_ranges, pairSize()), m_options.stop) == run.checksum;
   };
-  std::erase_if(m_manifest.cells, [&isIntact](const auto& cell) {
+  std::size_t checked = 0;
+  const std::size_t all = m_manifest.cells.size();
+  std::erase_if(m_manifest.cells, [&](const auto& cell) {
+    report("checking", checked++, all);
     const std::vector<Run>& runs = cell.second.runs;
     return !std::all_of(runs.begin(), runs.end(), isIntact);
   });
@@ -221,7 +231,7 @@ void DiskJoin::dropDamagedCells() {
 
 void DiskJoin::requireRoom(const Division& division) const {
   const std::uint64_t boxes = division.records() * recordType().size();
-  const std::uint64_t pairs = m_manifest.isCount ? 0 : division.pairs * pairSize();
+  const std::uint64_t pairs = m_manifest.isCount ? 0 : division.pairBytes(pairSize());
   const std::string found =
       " left, and this join needs " + megabytes(boxes) + " for boxes and about " + megabytes(pairs) + " for pairs";
   const std::optional<fs::path> output = folderOf(m_options.output);
@@ -235,6 +245,7 @@ void DiskJoin::requireRoom(const Division& division) const {
 
 void DiskJoin::distribute() {
   const Division division = Divider(m_input, m_options, m_budget).divide();
+  removeParts();  // of a join that was killed, or is damaged: their room is what this one needs
   requireRoom(division);
   m_cells = division.cells;
   m_spill.emplace(file("boxes"), recordType(), division.counts, m_budget.bufferBytes);
@@ -247,7 +258,7 @@ void DiskJoin::distribute() {
   });
   m_spill->finish();
   requireUnchanged();
-  m_manifest.outside = m_input.size() - division.kept[0] - division.kept[1];
+  m_manifest.outside = m_input.size() - division.sent[0] - division.sent[1];
   m_manifest.empty = division.empty;
   m_manifest.cuts.assign(m_cells.cuts().begin(), m_cells.cuts().end());
   m_manifest.extents = m_spill->extents();
@@ -361,8 +372,7 @@ JoinSummary DiskJoin::summary() const {
   std::uint64_t records = 0;
   for (const Extent& extent : m_manifest.extents) records += extent.count;
   for (const auto& [number, result] : m_manifest.cells) summary.pairs += result.pairs;
-  const std::uint64_t kept = summary.boxes - m_manifest.outside;
-  summary.copies = records > kept ? records - kept : 0;
+  summary.copies = records - (summary.boxes - m_manifest.outside);
   for (std::size_t set = 0; set < m_input.sets(); ++set) {
     summary.wideBoxes += m_manifest.extents[partOf(m_cells, set, m_cells.size())].count;
   }

@@ -34,6 +34,7 @@ class DiskJoin {
   [[nodiscard]] bool tryToOpenFolder();
   void readManifest();
   void clearFolder();
+  void removeParts();
   void requireRoom(const Division& division) const;
   void distribute();
   void requireUnchanged() const;

@@ -36,10 +36,7 @@ std::size_t cellsFor(std::uint64_t boxes, const Budget& budget) {
 
 std::uint64_t Division::records() const { return std::accumulate(counts.begin(), counts.end(), std::uint64_t{0}); }
 
-std::uint64_t Division::copies() const {
-  const std::uint64_t boxes = kept[0] + kept[1];
-  return records() > boxes ? records() - boxes : 0;  // empty boxes go nowhere
-}
+std::uint64_t Division::copies() const { return records() - sent[0] - sent[1]; }
 
 std::uint64_t Division::countOf(std::size_t cell) const {
   std::uint64_t count = 0;
@@ -64,7 +61,7 @@ Division Divider::divide() {
                                        static_cast<double>(all));
   }
   const std::size_t cells = std::max(cellsFor(boxes, m_budget), m_budget.leastCells);
-  division.cells = partition::Partition(sample.view(), cells, m_options.distance);
+  division.cells = partition::Partition(sample.view(), cells, m_options.distance, m_options.stop);
   count(division);
   for (int round = 0; round < kRounds && cutFullCells(division, sample); ++round) count(division);
   division.pairs = estimatePairs(division);
@@ -100,7 +97,7 @@ BoxSample Divider::keptOf(const BoxSample& all) const {
 
 void Divider::count(Division& division) {
   division.counts.assign(m_input.sets() * (division.cells.size() + 1), 0);
-  division.kept = {};
+  division.sent = {};
   division.empty = {};
   for (BoxSample& sample : m_evenSamples) sample = {.type = m_input.recordType()};
   m_evenNumbers = {};
@@ -109,7 +106,7 @@ void Divider::count(Division& division) {
     const std::uint64_t step = stepOf(block.set);
     division.empty[block.set].look(block.boxes, block.begin);
     visitCells(division, block, m_options, [&](std::size_t i, std::span<const std::uint32_t> cells) {
-      ++division.kept[block.set];
+      ++division.sent[block.set];
       for (const std::uint32_t cell : cells) ++division.counts[partOf(division.cells, block.set, cell)];
       if ((block.begin + i) % step != 0) return;
       m_evenSamples[block.set].add(block, i);
@@ -163,7 +160,7 @@ std::uint64_t Divider::estimatePairs(const Division& division) const {
   }
   const bool isOneSet = m_input.sets() == 1;
   const auto shareOf = [&](std::size_t set, std::size_t less) {  // of how many boxes one of the sample stands for
-    const auto all = static_cast<double>(division.kept[set] - less);
+    const auto all = static_cast<double>(division.sent[set] - less);
     return all / static_cast<double>(parts[set].boxes.size() - less);
   };
   if (pairs.others + pairs.ofOneNumber == 0) return 0;

@@ -26,13 +26,19 @@ struct Division {
   partition::Partition cells{};
   std::vector<std::uint64_t> counts{};     ///< Of each part.
   std::array<double, 2> partnerMargins{};  ///< The greatest margin of what a box of each set may be paired with.
-  std::array<std::uint64_t, 2> kept{};     ///< Boxes of each set that the region does not leave out.
+  std::array<std::uint64_t, 2> sent{};     ///< Boxes of each set that go anywhere: none that is empty or left out.
   std::array<scene::EmptyBoxes, 2> empty{};
   std::uint64_t pairs = 0;  ///< Estimated.
 
   /// Boxes and their copies: what is written.
   [[nodiscard]] std::uint64_t records() const;
   [[nodiscard]] std::uint64_t copies() const;
+
+  /// What its pairs take, as far as a file can be: an estimate may be beyond all numbers.
+  [[nodiscard]] std::uint64_t pairBytes(std::size_t pairSize) const {
+    constexpr std::uint64_t kMost = std::uint64_t{1} << 60;
+    return pairs < kMost / pairSize ? pairs * pairSize : kMost;
+  }
 
   /// The boxes of all sets in a cell, or those that are wide.
   [[nodiscard]] std::uint64_t countOf(std::size_t cell) const;
@@ -77,8 +83,8 @@ class Divider {
   return !options.region || overlap(block.boxes[i], *options.region, options.distance + block.boxes.margin(i));
 }
 
-/// Calls `visit(i, cells)` for each box of a block that the region keeps, with the numbers of its cells; of a box in
-/// many, that of the wide ones alone, which is the number after the last.
+/// Calls `visit(i, cells)` for each box of a block that is not empty and that the region keeps, with the numbers of its
+/// cells; of a box in many, that of the wide ones alone, which is the number after the last.
 template <class Visit>
 void visitCells(const Division& division, const BoxBlock& block, const JoinOptions& options, const Visit& visit) {
   const auto wide = static_cast<std::uint32_t>(division.cells.size());
@@ -87,7 +93,7 @@ void visitCells(const Division& division, const BoxBlock& block, const JoinOptio
                               division.partnerMargins[block.set]);
   };
   division.cells.visitCells(block.boxes.size(), reach, [&](std::size_t i, std::span<const std::uint32_t> cells) {
-    if (!isKept(block, i, options)) return;
+    if (cells.empty() || !isKept(block, i, options)) return;
     visit(i, division.cells.isWide(cells.size()) ? std::span(&wide, 1) : cells);
   });
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "allpairs/join/Join.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <cerrno>
 #include <optional>
@@ -39,10 +41,16 @@ Budget budgetOf(const JoinOptions& options, const BoxInput& input) {
 /// one that goes on after a kill removes what this left.
 class PartFile {
  public:
-  /// Bad input: a place that is taken by what is no file, such as a device, throws FileError.
-  PartFile(const fs::path& target, const fs::path& work)
-      : m_target(scene::resolvedTarget(target)), m_part(m_target.string() + '.' + numberOf(work) + ".part") {
-    const fs::file_status there = fs::status(m_target);
+  /// Bad input: a place that is taken by what is no file, such as a device, or where nothing can be written, throws
+  ///            FileError.
+  PartFile(const fs::path& target, const fs::path& work) : m_target(scene::resolvedTarget(target)) {
+    constexpr std::size_t kMostOfName = 200;  // of 255
+    const fs::path folder = m_target.has_parent_path() ? m_target.parent_path() : fs::path(".");
+    if (::access(folder.c_str(), W_OK | X_OK) != 0) fail("written", {errno, std::generic_category()});
+    m_part = folder / (m_target.filename().string().substr(0, kMostOfName) + '.' + numberOf(work) + ".part");
+    std::error_code problem;
+    const fs::file_status there = fs::status(m_target, problem);
+    if (there.type() == fs::file_type::none) fail("written", problem);
     if (!fs::exists(there)) return;
     if (!fs::is_regular_file(there)) throw FileError(target, "is there and is no file that can be replaced");
     m_mode = there.permissions();
@@ -55,23 +63,43 @@ class PartFile {
   PartFile& operator=(const PartFile&) = delete;
 
   void write(std::string_view bytes) {
-    if (!m_isThere) m_file = WorkFile(m_part, WorkFile::Mode::CreateAnew);
-    m_isThere = true;
-    m_file.write(m_position, bytes.data(), bytes.size());
+    underTarget([&] {
+      if (!m_isThere) m_file = WorkFile(m_part, WorkFile::Mode::CreateAnew);
+      m_isThere = true;
+      m_file.write(m_position, bytes.data(), bytes.size());
+    });
     m_position += bytes.size();
   }
 
+  /// On disk before it has its name, since what it was made from is removed then.
   void commit() {
+    underTarget([this] { m_file.sync(); });
     std::error_code problem;
     if (m_mode && !m_file.setPermissions(*m_mode)) problem.assign(errno, std::generic_category());
     if (!problem) fs::rename(m_part, m_target, problem);
-    if (problem) throw FileError::ofSystem(m_target, "cannot be replaced", problem);
+    if (problem) fail("replaced", problem);
     m_isThere = false;
   }
 
  private:
+  /// The same of a folder that is there and of one that is not yet, with a slash behind it or not.
   static std::string numberOf(const fs::path& folder) {
-    return std::to_string(checksumOf(scene::resolvedTarget(fs::absolute(folder)).string()) >> 32U);
+    const fs::path named = folder.has_filename() ? folder : folder.parent_path();
+    return std::to_string(checksumOf(scene::resolvedTarget(fs::absolute(named)).string()) >> 32U);
+  }
+
+  /// Says what fails of the file that the caller has named.
+  template <class Use>
+  void underTarget(const Use& use) const {
+    try {
+      use();
+    } catch (const FileError& problem) {
+      throw FileError(m_target, problem.problem(), problem.code());
+    }
+  }
+
+  [[noreturn]] void fail(const char* action, std::error_code problem) const {
+    throw FileError::ofSystem(m_target, std::string("cannot be ") + action, problem);
   }
 
   fs::path m_target;
@@ -117,7 +145,8 @@ JoinSummary joinFiles(Span<const fs::path> inputs, ResultSink sink, const JoinOp
 }
 
 JoinSummary joinFiles(Span<const fs::path> inputs, const fs::path& output, const JoinOptions& given) {
-  if (output.filename().empty() || fs::is_directory(output)) throw FileError(output, "is no name for a file");
+  std::error_code ignored;
+  if (output.filename().empty() || fs::is_directory(output, ignored)) throw FileError(output, "is no name for a file");
   JoinOptions options = given;
   if (options.work.empty()) options.work = output.string() + ".work";
   scene::checkIsNoInput(output, inputs);
@@ -147,7 +176,7 @@ JoinSummary planFiles(Span<const fs::path> inputs, const JoinOptions& options) {
           .copies = division.copies(),
           .wideBoxes = division.wideBoxes(),
           .boxBytes = division.records() * input.recordType().size(),
-          .pairBytes = division.pairs * pairSizeFor(input.largestSize()),
+          .pairBytes = division.pairBytes(pairSizeFor(input.largestSize())),
           .secondBoxes = input.size(1),
           .empty = division.empty};
 }
@@ -164,7 +193,11 @@ RanksPlan planRanks(Span<const fs::path> inputs, std::size_t ranks, const JoinOp
   budget.cellBoxes = static_cast<std::size_t>(input.size() / cells / 7 * 10 + 1);
   const Division division = Divider(input, options, budget).divide();
   const std::uint64_t recordSize = sentSizeOf(input.recordType());
-  const std::uint64_t wide = division.wideBoxes();
+  const std::uint64_t most = partition::mostInCellOnRanks(input.size(), ranks);
+  std::uint64_t wide = division.wideBoxes();
+  for (std::size_t cell = 0; cell < division.cells.size(); ++cell) {
+    if (division.countOf(cell) > most) wide += division.countOf(cell);
+  }
   const auto leaving = [ranks](std::uint64_t bytes) { return bytes / ranks * (ranks - 1); };  // for another rank
   return {.boxes = input.size(),
           .pairs = division.pairs,
@@ -172,7 +205,7 @@ RanksPlan planRanks(Span<const fs::path> inputs, std::size_t ranks, const JoinOp
           .copies = division.copies(),
           .wideBoxes = wide,
           .boxBytes = leaving((division.records() - wide) * recordSize) + (ranks - 1) * wide * recordSize,
-          .pairBytes = leaving(division.pairs * pairSizeFor(input.largestSize())),
+          .pairBytes = leaving(division.pairBytes(pairSizeFor(input.largestSize()))),
           .secondBoxes = input.size(1),
           .empty = division.empty};
 }

@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kFirstLine = "allpairs join 1\n";  // the form of the file
+constexpr std::string_view kFirstLine = "allpairs join 2\n";  // the form of the file
 
 /// A line of a word and whole numbers; doubles are their bits, signed numbers in two's complement.
 template <class... Numbers>
@@ -41,8 +41,9 @@ std::string textOf(const Manifest& manifest) {
   if (manifest.region) {
     const auto [x0, y0, z0] = manifest.region->min;
     const auto [x1, y1, z1] = manifest.region->max;
-    addLine(text, "region", bitsOf(x0), bitsOf(y0), bitsOf(z0), bitsOf(x1), bitsOf(y1), bitsOf(z1), manifest.outside);
+    addLine(text, "region", bitsOf(x0), bitsOf(y0), bitsOf(z0), bitsOf(x1), bitsOf(y1), bitsOf(z1));
   }
+  if (manifest.outside != 0) addLine(text, "outside", manifest.outside);
   for (std::size_t set = 0; set < manifest.empty.size(); ++set) {
     const auto& [count, first, axis] = manifest.empty[set];
     if (count != 0) addLine(text, "empty", set, count, first, axis);
@@ -106,6 +107,7 @@ void readLine(Lines& line, Manifest& manifest, CellResult*& cell) {
   } else if (line.word() == "region") {
     const auto bound = [&line] { return std::bit_cast<double>(line.number()); };
     manifest.region = Box{{bound(), bound(), bound()}, {bound(), bound(), bound()}};
+  } else if (line.word() == "outside") {
     manifest.outside = line.number();
   } else if (line.word() == "empty") {
     scene::EmptyBoxes& empty = manifest.empty[line.number() == 0 ? 0 : 1];
@@ -126,8 +128,11 @@ void readLine(Lines& line, Manifest& manifest, CellResult*& cell) {
 }
 
 InputState stateOf(const fs::path& path) {
-  return {checksumOf(fs::absolute(path).lexically_normal().string()), fs::file_size(path),
-          fs::last_write_time(path).time_since_epoch().count()};
+  std::error_code problem;
+  const std::uintmax_t size = fs::file_size(path, problem);
+  const fs::file_time_type changed = problem ? fs::file_time_type() : fs::last_write_time(path, problem);
+  if (problem) throw FileError::ofSystem(path, "cannot be read", problem);
+  return {checksumOf(fs::absolute(path).lexically_normal().string()), size, changed.time_since_epoch().count()};
 }
 
 Manifest manifestOf(std::string_view text) {

@@ -49,7 +49,7 @@ struct Manifest {
   std::vector<ValueState> values{};
   std::optional<Box> region{};
   bool isCount = false;
-  std::uint64_t outside = 0;  ///< Boxes that the region leaves out.
+  std::uint64_t outside = 0;  ///< Boxes that are empty, or that the region leaves out.
   std::array<scene::EmptyBoxes, 2> empty{};
   std::vector<partition::Cut> cuts{};
   std::vector<Extent> extents{};              ///< Of each part of the boxes; see partOf().

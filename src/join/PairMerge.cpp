@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <numeric>
+#include <system_error>
 #include <utility>
 
 #include "allpairs/scene/FileError.h"
@@ -11,8 +12,10 @@
 namespace allpairs::join {
 namespace {
 
-constexpr std::size_t kBatch = std::size_t{1} << 16;  // pairs of a large range that are read at once
-constexpr std::size_t kParts = std::size_t{1} << 8;   // of a range that is divided
+constexpr std::size_t kBatch = std::size_t{1} << 16;                // pairs that are read, counted or handed on at once
+constexpr std::size_t kRowsAtOnce = 4096;                           // sorted before a stop is looked for
+constexpr std::size_t kParts = std::size_t{1} << 8;                 // of a range that is divided
+constexpr const char* kOtherRanges = "is damaged: a run's ranges";  // from one reading to the next, also
 
 template <class T>
 void release(std::vector<T>& values) {
@@ -120,7 +123,7 @@ void PairMerge<Id>::forEachPart(std::span<const Run> runs, std::size_t begin, st
     std::array<std::uint64_t, 2> bounds{};
     m_file.read(begins + begin * sizeof(std::uint64_t), &bounds[0], sizeof(std::uint64_t));
     m_file.read(begins + end * sizeof(std::uint64_t), &bounds[1], sizeof(std::uint64_t));
-    if (bounds[0] > bounds[1] || bounds[1] > run.pairs) throw FileError(m_file.path(), "is damaged: a run's ranges");
+    if (bounds[0] > bounds[1] || bounds[1] > run.pairs) throw FileError(m_file.path(), kOtherRanges);
     use(run.position + bounds[0] * sizeof(StoredPair<Id>), bounds[1] - bounds[0]);
   }
 }
@@ -129,9 +132,22 @@ template <class Id>
 void PairMerge<Id>::readGroup(std::span<const Run> runs, const Group& group) {
   std::size_t filled = 0;
   forEachPart(runs, group.begin, group.end, [&](std::uint64_t position, std::uint64_t count) {
+    checkStop(m_stop);
+    if (count > m_pairs.size() - filled) throw FileError(m_file.path(), kOtherRanges);
     m_file.read(position, m_pairs.data() + filled, static_cast<std::size_t>(count) * sizeof(StoredPair<Id>));
     filled += static_cast<std::size_t>(count);
   });
+  if (filled != m_pairs.size()) throw FileError(m_file.path(), kOtherRanges);
+}
+
+/// Some at a time, so that it soon ends where it is to stop.
+template <class Id>
+template <class Use>
+void PairMerge<Id>::forEachBatch(const Use& use) const {
+  for (std::size_t begin = 0; begin < m_pairs.size(); begin += kBatch) {
+    checkStop(m_stop);
+    use(std::span(m_pairs).subspan(begin, std::min(kBatch, m_pairs.size() - begin)));
+  }
 }
 
 /// Rows by counting; each row is sorted by itself.
@@ -139,29 +155,34 @@ template <class Id>
 void PairMerge<Id>::giveRows(std::uint64_t firstKey, std::uint64_t endKey, Receiver receive) {
   const auto rows = static_cast<std::size_t>(endKey - firstKey);
   m_begins.assign(rows + 1, 0);
-  for (const auto& pair : m_pairs) {
-    if (pair.first < firstKey || pair.first >= endKey) throw FileError(m_file.path(), kForeignBox);
-    ++m_begins[static_cast<std::size_t>(pair.first - firstKey)];
-  }
+  forEachBatch([&](std::span<const StoredPair<Id>> pairs) {
+    for (const auto& pair : pairs) {
+      if (pair.first < firstKey || pair.first >= endKey) throw FileError(m_file.path(), kForeignBox);
+      ++m_begins[static_cast<std::size_t>(pair.first - firstKey)];
+    }
+  });
   std::exclusive_scan(m_begins.begin(), m_begins.end(), m_begins.begin(), std::uint64_t{0});
   m_seconds.resize(m_pairs.size());
-  for (const auto& pair : m_pairs) m_seconds[m_begins[static_cast<std::size_t>(pair.first - firstKey)]++] = pair.second;
+  forEachBatch([&](std::span<const StoredPair<Id>> pairs) {
+    for (const auto& pair : pairs) m_seconds[m_begins[static_cast<std::size_t>(pair.first - firstKey)]++] = pair.second;
+  });
   std::size_t begin = 0;  // each begin has become the end of its row
   for (std::size_t row = 0; row < rows; ++row) {
+    if (row % kRowsAtOnce == 0) checkStop(m_stop);
     const auto end = static_cast<std::size_t>(m_begins[row]);
     std::sort(m_seconds.begin() + static_cast<std::ptrdiff_t>(begin),
               m_seconds.begin() + static_cast<std::ptrdiff_t>(end));
     for (std::size_t i = begin; i < end; ++i) m_pairs[i] = {static_cast<Id>(firstKey + row), m_seconds[i]};
     begin = end;
   }
-  receive(m_pairs);
+  forEachBatch(receive);
 }
 
 /// All pairs have the same first.
 template <class Id>
 void PairMerge<Id>::giveOneRow(Receiver receive) {
   std::sort(m_pairs.begin(), m_pairs.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
-  receive(m_pairs);
+  forEachBatch(receive);
 }
 
 template <class Id>
@@ -193,7 +214,8 @@ void PairMerge<Id>::divideRange(std::span<const Run> runs, std::size_t range, Re
   }
   PairMerge inner(parts, m_boxes, m_memory, file.file, m_scratch.string() + "-", m_stop);
   inner.merge(divided, receive);
-  std::filesystem::remove(m_scratch);
+  std::error_code ignored;  // what stays goes with the folder
+  std::filesystem::remove(m_scratch, ignored);
 }
 
 template class PairMerge<std::uint32_t>;

@@ -20,7 +20,7 @@ class PairMerge {
   using Receiver = FunctionRef<void(std::span<const StoredPair<Id>>)>;
 
   /// `file` has the runs; `boxes` is one more than the greatest number of a second box. A range that is too large by
-  /// itself is divided again, by way of `scratch`. `stop` ends that, if it is given.
+  /// itself is divided again, by way of `scratch`. `stop` ends a merge soon, if it is given.
   PairMerge(const KeyRanges& ranges, std::uint64_t boxes, std::size_t memory, const WorkFile& file,
             std::filesystem::path scratch, const StopFlag* stop = nullptr);
 
@@ -45,6 +45,9 @@ class PairMerge {
   void giveRows(std::uint64_t firstKey, std::uint64_t endKey, Receiver receive);
   void giveOneRow(Receiver receive);
   void divideRange(std::span<const Run> runs, std::size_t range, Receiver receive);
+
+  template <class Use>
+  void forEachBatch(const Use& use) const;
 
   /// Calls use(position, count) for the pairs of ranges [begin, end) in each run.
   template <class Use>

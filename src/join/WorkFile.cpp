@@ -111,12 +111,14 @@ void WorkFile::fail(const char* action) const {
   throw FileError::ofSystem(m_path, std::string("cannot be ") + action, code);
 }
 
-std::optional<std::uint64_t> checksumOf(const WorkFile& file, std::uint64_t position, std::uint64_t count) {
+std::optional<std::uint64_t> checksumOf(const WorkFile& file, std::uint64_t position, std::uint64_t count,
+                                        const StopFlag* stop) {
   constexpr std::size_t kAtOnce = std::size_t{1} << 20;
   Checksum checksum;
   std::vector<std::byte> bytes(static_cast<std::size_t>(std::min<std::uint64_t>(count, kAtOnce)));
   try {
     while (count > 0) {
+      checkStop(stop);
       const auto part = static_cast<std::size_t>(std::min<std::uint64_t>(count, bytes.size()));
       file.read(position, bytes.data(), part);
       checksum.add(bytes.data(), part);

@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <optional>
 
+#include "allpairs/StopFlag.h"
+
 namespace allpairs::join {
 
 /// A file of the work folder, written and read at any position.
@@ -57,7 +59,7 @@ class WorkFile {
 };
 
 /// The checksum of a part of a file; none if the file ends before.
-[[nodiscard]] std::optional<std::uint64_t> checksumOf(const WorkFile& file, std::uint64_t position,
-                                                      std::uint64_t count);
+[[nodiscard]] std::optional<std::uint64_t> checksumOf(const WorkFile& file, std::uint64_t position, std::uint64_t count,
+                                                      const StopFlag* stop = nullptr);
 
 }  // namespace allpairs::join

@@ -177,22 +177,27 @@ CellSearch::~CellSearch() = default;
 CellSearch::CellSearch(CellSearch&&) noexcept = default;
 CellSearch& CellSearch::operator=(CellSearch&&) noexcept = default;
 
-void CellSearch::setFilter(Filter filter) { m_state->setFilter(std::move(filter)); }
+CellSearch::State& CellSearch::state() {
+  if (!m_state) m_state = std::make_unique<State>(OverlapOptions());
+  return *m_state;
+}
+
+void CellSearch::setFilter(Filter filter) { state().setFilter(std::move(filter)); }
 
 void CellSearch::stream(const BoxView& boxes, const Cell& cell, PairVisitor visitor) {
-  m_state->stream({boxes, nullptr}, cell, visitor);
+  state().stream({boxes, nullptr}, cell, visitor);
 }
 
 void CellSearch::stream(const BoxView& first, const BoxView& second, const Cell& cell, PairVisitor visitor) {
-  m_state->stream({first, &second}, cell, visitor);
+  state().stream({first, &second}, cell, visitor);
 }
 
 Span<const Pair> CellSearch::find(const BoxView& boxes, const Cell& cell) {
-  return m_state->find({boxes, nullptr}, cell);
+  return state().find({boxes, nullptr}, cell);
 }
 
 Span<const Pair> CellSearch::find(const BoxView& first, const BoxView& second, const Cell& cell) {
-  return m_state->find({first, &second}, cell);
+  return state().find({first, &second}, cell);
 }
 
 std::vector<IdPair> overlapsInCell(const BoxView& boxes, Span<const std::uint64_t> ids, const Cell& cell,

@@ -306,4 +306,8 @@ std::size_t cellsOnRanks(std::uint64_t boxes, std::size_t ranks, std::size_t box
   return static_cast<std::size_t>(std::max({kLeastForARank * ranks, wanted, cells / kMostInCell}));
 }
 
+std::uint64_t mostInCellOnRanks(std::uint64_t boxes, std::size_t ranks, std::uint64_t least) noexcept {
+  return std::max(boxes / std::max<std::uint64_t>(ranks, 1), least);
+}
+
 }  // namespace allpairs::partition

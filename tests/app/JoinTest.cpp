@@ -297,6 +297,33 @@ TEST_F(JoinCommand, APlanOfFewBoxesJoinsFewToMeasureTheTime) {
   EXPECT_NE(run.out.find("\ntime     about "), std::string::npos) << run.out;
 }
 
+/// A distance in the boxes' own units says nothing of the boxes that are made to measure.
+TEST_F(JoinCommand, APlanMeasuresTheTimeWithoutTheDistance) {
+  for (const char* distance : {"1e9", "-1e9"}) {
+    const ProgramRun run = runScript("cd '" + folder.path().string() +
+                                     "' && ulimit -f 4096 && exec \"$0\" plan few.npy --distance " + distance);
+    expectSuccess(run);
+    EXPECT_NE(run.out.find("\ntime     about 0."), std::string::npos) << run.out;
+  }
+}
+
+TEST_F(JoinCommand, APlanForRanksTakesNothingThatIsOfAJoinOnDisk) {
+  expectFailure(runProgram({"plan", few, "--ranks", "2", "--threads", "2"}), kWrongUsage, "--threads");
+  expectFailure(runProgram({"plan", few, "--ranks", "2", "--work", folder.path()}), kWrongUsage, "--work");
+}
+
+/// As a descriptor that a shell has opened, which is no name for files beside it.
+TEST_F(JoinCommand, StandardOutputMayBeAFile) {
+  expectSuccess(runProgram({"join", few, "-o", in("named.npy")}));
+  for (const char* output : {"-", "/dev/stdout", "/proc/self/fd/1"}) {
+    const ProgramRun run =
+        runScript("cd '" + folder.path().string() + "' && \"$0\" join few.npy -o " + output + " > join.npy");
+    EXPECT_EQ(run.status, 0) << run.err;
+    EXPECT_TRUE(bytes("join.npy") == bytes("named.npy")) << output;
+    EXPECT_NE(run.err.find(" among 400 boxes"), std::string::npos) << run.err;
+  }
+}
+
 TEST(PlanCommand, LeavesNothingWhereASignalEndsIt) {
   const TempFolder folder;
   const std::string boxes = folder.path() / "boxes.npy";

@@ -116,6 +116,29 @@ TEST(Join, APlanSaysWhatAJoinThenDoes) {
   EXPECT_NEAR(static_cast<double>(plan.pairs), static_cast<double>(done.pairs), 0.1 * static_cast<double>(done.pairs));
 }
 
+/// They go nowhere, and are no copies of others.
+TEST(Join, EmptyBoxesDoNotCountAmongCopies) {
+  std::vector<Box> boxes = toDouble(randomBoxes(300'000, 13));
+  JoinCase with(boxes);
+  join::JoinOptions options = with.options();
+  options.memory = kLeastMemory;
+  const std::uint64_t copies = planFiles(with.paths, options).copies;
+  EXPECT_GT(copies, 1'000U);
+  with.add(std::vector<Box>(5'000, kEmptyBox));
+  EXPECT_GT(planFiles(with.paths, options).copies, copies / 2);
+  const join::JoinSummary done = countFiles(with.paths, options);
+  EXPECT_EQ(done.copies, planFiles(with.paths, options).copies);
+  EXPECT_EQ(done.copies * 32 + 32 * 300'000, done.boxBytes);
+}
+
+/// A cell that no cut divides, of more than a rank's share, is sent to all ranks.
+TEST(Join, APlanForRanksCountsTheBoxesOfCrowdedCells) {
+  const JoinCase with(std::vector<Box>(100'000, cube(1, 2, 3)));
+  const join::RanksPlan plan = join::planRanks(with.paths, 16, {});
+  EXPECT_EQ(plan.wideBoxes, 100'000U);
+  EXPECT_EQ(plan.boxBytes, 15U * 100'000U * 32U);
+}
+
 TEST(Join, APlanForRanksCountsWhatTravels) {
   std::vector<Box> boxes = toDouble(randomBoxes(40'000, 13));
   const JoinCase with(boxes);
@@ -188,6 +211,39 @@ TEST(Join, AFolderThatIsNotThereIsNotMade) {
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(with.folder.path()), {}), 1) << "the input alone";
 }
 
+/// Before anything is read: with a work folder of its own, a join would only say so in the end.
+TEST(Join, AnOutputThatCannotBeWrittenIsRefusedAtOnce) {
+  const JoinCase with(toDouble(randomBoxes(10, 16)));
+  join::JoinOptions options = with.options();
+  options.progress = [](const join::JoinProgress&) { ADD_FAILURE() << "it begins"; };
+  const auto problemOf = [&](const std::filesystem::path& output) {
+    try {
+      joinFiles(with.paths, output, options);
+    } catch (const FileError& problem) {
+      EXPECT_EQ(problem.path(), output);
+      return problem.problem();
+    }
+    return std::string("none");
+  };
+  EXPECT_EQ(problemOf(with.folder.path() / "missing" / "pairs.npy"), "cannot be written: No such file or directory");
+  EXPECT_EQ(problemOf(with.folder.path() / std::string(300, 'p')), "cannot be written: File name too long");
+  options.progress = {};
+  const std::filesystem::path longest = with.folder.path() / (std::string(250, 'p') + ".npy");
+  EXPECT_EQ(joinFiles(with.paths, longest, options).boxes, 10U) << "what it is made as has another name";
+}
+
+TEST(Join, AWorkFolderThatIsALinkStays) {
+  namespace fs = std::filesystem;
+  const JoinCase with(toDouble(randomBoxes(10, 16)));
+  fs::create_directory(with.folder.path() / "large");
+  fs::create_directory_symlink("large", with.folder.path() / "link");
+  join::JoinOptions options = with.options();
+  options.work = with.folder.path() / "link";
+  EXPECT_EQ(joinFiles(with.paths, with.folder.path() / "pairs.npy", options).boxes, 10U);
+  EXPECT_TRUE(fs::is_symlink(options.work));
+  EXPECT_TRUE(fs::is_empty(options.work));
+}
+
 TEST(Join, AFailureAtTheEndCanBeResumed) {
   const std::vector<Box> boxes = toDouble(randomBoxes(500, 17));
   const JoinCase with(boxes);
@@ -210,6 +266,7 @@ TEST(Join, OfWhatAKillLeavesBesideTheResultNothingStays) {
   const JoinCase with(boxes);
   const fs::path output = with.folder.path() / "pairs.npy";
   join::JoinOptions options;
+  options.work = with.folder.path() / "work" / "";  // with a slash behind it, as a shell completes it
   options.resume = true;
   options.progress = [](const join::JoinProgress& progress) {
     if (progress.step == "writing") ::_exit(9);

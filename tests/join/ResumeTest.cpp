@@ -129,6 +129,8 @@ TEST(Resume, BoxesThatAreEmptyAreStillKnown) {
   boxes[70] = {{0, 2, 0}, {1, 1, 1}};
   boxes[90] = {{3, 2, 0}, {1, 1, 1}};
   JoinCase with(boxes);
+  (void)with.run(with.options());
+  const std::uint64_t copies = with.summary.copies;
   stoppedWhileWriting(with);
   EXPECT_TRUE(with.run(resuming(with)) == expectedBytes(boxes));
   EXPECT_GT(with.summary.resumedCells, 0U);
@@ -136,6 +138,7 @@ TEST(Resume, BoxesThatAreEmptyAreStillKnown) {
   EXPECT_EQ(with.summary.empty[0].first, 70U);
   EXPECT_EQ(with.summary.empty[0].axis, 1U);
   EXPECT_EQ(with.summary.empty[1].count, 0U);
+  EXPECT_EQ(with.summary.copies, copies);
 }
 
 TEST(Resume, DamagedFilesAreMadeAgain) {
@@ -150,6 +153,24 @@ TEST(Resume, DamagedFilesAreMadeAgain) {
       EXPECT_LT(with.summary.resumedCells, with.summary.cells);
     }
   }
+}
+
+/// On a full disk, the room of what is made again is the only one.
+TEST(Resume, WhatIsMadeAgainIsRemovedBefore) {
+  JoinCase with(someBoxes());
+  stoppedWhileWriting(with);
+  flipByte(with.options().work / "boxes", 100);
+  const std::uintmax_t before = fs::file_size(with.options().work / "pairs");
+  ASSERT_GT(before, 0U);
+  join::JoinOptions options = resuming(with);
+  bool hasDistributed = false;
+  options.progress = [&](const join::JoinProgress& progress) {
+    if (progress.step != "distributing") return;
+    hasDistributed = true;
+    EXPECT_FALSE(fs::exists(options.work / "pairs"));
+  };
+  EXPECT_TRUE(with.run(options) == expectedBytes(someBoxes()));
+  EXPECT_TRUE(hasDistributed);
 }
 
 /// Of cells that were searched again the pairs come behind those of cells with greater numbers.
@@ -217,9 +238,9 @@ TEST(Resume, AManifestOfAnotherFormIsAnError) {
   const fs::path path = with.options().work / "manifest";
   std::string text = bytesOfFile(path);
   text.erase(text.rfind("checksum "));
-  ASSERT_TRUE(text.starts_with("allpairs join 1\n"));
-  text.replace(0, text.find('\n'), "allpairs join 2");
-  for (const std::string& other : {text, std::string("allpairs join 1"), std::string()}) {
+  ASSERT_TRUE(text.starts_with("allpairs join 2\n"));
+  text.replace(0, text.find('\n'), "allpairs join 3");
+  for (const std::string& other : {text, std::string("allpairs join 2"), std::string()}) {
     join::Checksum checksum;
     checksum.add(other.data(), other.size());
     std::ofstream(path, std::ios::binary) << other << "checksum " << checksum.value() << '\n';

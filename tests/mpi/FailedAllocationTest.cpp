@@ -58,5 +58,14 @@ TEST(DistributedMemory, AnyAllocationOfOneRankMayFail) {
   }
 }
 
+/// Making a search is collective too.
+TEST(DistributedMemory, ASearchThatOneRankCannotMakeIsMadeOnNone) {
+  if (rankHere() == rankCount() - 1) allpairsTestFail(1, true, 0);
+  EXPECT_THROW(mpi::DistributedOverlaps(MPI_COMM_WORLD), std::bad_alloc);
+  allpairsTestStop();
+  mpi::DistributedOverlaps search(MPI_COMM_WORLD);
+  EXPECT_EQ(search.count(std::vector<Box>{}), 0U);
+}
+
 }  // namespace
 }  // namespace allpairs::test

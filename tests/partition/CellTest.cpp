@@ -55,6 +55,21 @@ TEST(Cell, ReachIsThatOfTheGreaterOfBothRoundings) {
   EXPECT_EQ(reachOf(point, 1.0, 1.0, kHuge).max[0], kHuge + 2.0);
 }
 
+/// The sum of the margins with the greatest is no number, where that with another is.
+TEST(Cell, ReachIsToInfinityWhereMarginsAre) {
+  const Box box{{0, 0, 0}, {1, 1, 1}};
+  EXPECT_EQ(reachOf(box, -1.7e308, -1.7e308, kInfinity).max[0], kInfinity);
+  EXPECT_EQ(reachOf(box, kInfinity, -1.7e308, -1.7e308).max[0], kInfinity);
+  EXPECT_EQ(reachOf(box, 0.0, -1.7e308, 0.0).max[0], 1.0);
+}
+
+TEST(Cell, ASearchThatHasBeenMovedFromIsANewOne) {
+  CellSearch search(OverlapOptions{.distance = 5.0});
+  const CellSearch taken = std::move(search);
+  const std::vector<Box> boxes{cube(0, 0, 0), cube(3, 0, 0), cube(3.5, 0, 0)};
+  EXPECT_EQ(search.find(boxes, Cell()).size(), 1U);  // NOLINT(bugprone-use-after-move): what is tested
+}
+
 TEST(Cell, ANanOnAnyAxisIsRefused) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     Cell low;

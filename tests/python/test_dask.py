@@ -408,6 +408,25 @@ def test_a_folder_holds_the_parts_of_one_result(tmp_path):
     assert found.tobytes() == allpairs.overlaps(boxes).tobytes()
 
 
+def test_a_failure_leaves_the_whole_result_of_before(tmp_path, monkeypatch):
+    boxes = boxes_of("uniform", np.float32)
+    folder = tmp_path / "pairs"
+    allpairs.dask.overlaps(dask.array.from_array(boxes, chunks=(1000, 6)), folder)
+    before = {path.name: path.read_bytes() for path in folder.iterdir()}
+    save = np.save
+
+    def fail_for_the_last(file, array):
+        if "part-00002" in file.name:
+            raise OSError(errno.ENOSPC, "No space left on device")
+        save(file, array)
+
+    monkeypatch.setattr(np, "save", fail_for_the_last)
+    with dask.config.set(scheduler="threads"):  # of this process
+        with pytest.raises(allpairs.FileError, match="part-00002.npy: cannot be written: No space left"):
+            allpairs.dask.overlaps(dask.array.from_array(boxes, chunks=(1000, 6)), folder, distance=9.0)
+    assert {path.name: path.read_bytes() for path in folder.iterdir()} == before
+
+
 def test_one_thread_at_a_time_reads_the_head_of_a_file(tmp_path, monkeypatch):
     names = [tmp_path / f"boxes{number}.npy" for number in range(8)]
     for name in names:

@@ -350,6 +350,10 @@ def test_ranks_with_other_arguments_all_end(tmp_path):
         assert "allpairs-mpi: rank 1 has other arguments than rank 0" in both(["--count"], other, 2).stderr
     one = mpirun(1, "join", tmp_path / "a.npy", "--count").stdout.split(" on ")[0]
     assert both(["--count", "--threads", "1"], ["--count", "--threads=2"], 0).stdout.startswith(one)
+    said = both(["--count", "--threads", "1"], ["--count", "--threads", "99999"], 2).stderr
+    assert "allpairs-mpi: rank 1: --threads" in said, said
+    twice = ["--count", "--threads", "1", "--threads", "1"]
+    assert "rank 1 has other arguments" in both(["--count", "--threads", "1"], twice, 2).stderr
 
 
 @needs_mpi

@@ -2,23 +2,24 @@
 #include "allpairs/mpi/DistributedOverlaps.h"
 
 #include <array>
+#include <optional>
 
 #include "DistributedSearch.h"
 #include "Ranks.h"
 #include "Tuning.h"
 #include "allpairs/Error.h"
+#include "allpairs/mpi/OnAllRanks.h"
 
 namespace allpairs::mpi {
 
 struct DistributedOverlaps::State {
-  Tuning tuning{};
-  Ranks ranks;
+  explicit State(const DistributedOptions& given) : options(given) {}
+
+  [[nodiscard]] DistributedSearch search() const { return {*ranks, options, tuning}; }
+
   DistributedOptions options;
-
-  State(MPI_Comm communicator, const DistributedOptions& given)
-      : ranks(communicator, tuning.pieceWords), options(given) {}
-
-  [[nodiscard]] DistributedSearch search() const { return {ranks, options, tuning}; }
+  Tuning tuning{};
+  std::optional<Ranks> ranks;
 };
 
 DistributedOverlaps::State& DistributedOverlaps::state() {
@@ -27,8 +28,11 @@ DistributedOverlaps::State& DistributedOverlaps::state() {
   return *m_state;
 }
 
-DistributedOverlaps::DistributedOverlaps(MPI_Comm communicator, const DistributedOptions& options)
-    : m_state(std::make_unique<State>(communicator, options)) {}
+/// All ranks duplicate the communicator, or none.
+DistributedOverlaps::DistributedOverlaps(MPI_Comm communicator, const DistributedOptions& options) {
+  onAllRanks(communicator, [&] { m_state = std::make_unique<State>(options); });
+  m_state->ranks.emplace(communicator, m_state->tuning.pieceWords);
+}
 DistributedOverlaps::~DistributedOverlaps() = default;
 DistributedOverlaps::DistributedOverlaps(DistributedOverlaps&&) noexcept = default;
 DistributedOverlaps& DistributedOverlaps::operator=(DistributedOverlaps&&) noexcept = default;

@@ -184,7 +184,8 @@ bool Distribution::cutAgain() {
 }
 
 void Distribution::spreadCrowded() {
-  const std::uint64_t most = std::max(m_allBoxes / static_cast<std::uint64_t>(m_ranks.size()), m_tuning.leastCrowded);
+  const std::uint64_t most =
+      partition::mostInCellOnRanks(m_allBoxes, static_cast<std::size_t>(m_ranks.size()), m_tuning.leastCrowded);
   const auto wide = static_cast<std::uint32_t>(m_cells.size());
   const auto isTooMany = [most](std::uint64_t count) { return count > most; };
   if (std::none_of(m_counts.begin(), m_counts.end() - 1, isTooMany)) return;  // on all ranks alike

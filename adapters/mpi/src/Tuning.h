@@ -13,8 +13,7 @@ struct Tuning {
   std::size_t boxesPerCell = partition::kBoxesPerCell;
   std::size_t samplePerCell = 64;  ///< Boxes that say where to cut.
   std::size_t leastSample = std::size_t{1} << 16;
-  /// A cell of fewer boxes is no burden, though nothing divides it.
-  std::uint64_t leastCrowded = std::uint64_t{1} << 16;
+  std::uint64_t leastCrowded = partition::kLeastCrowded;
   std::size_t wideAtOnce = std::size_t{1} << 20;  ///< Boxes that all ranks receive together.
   std::size_t pieceWords = std::size_t{1} << 27;  ///< 8 bytes each: 1 GiB.
 };

@@ -105,19 +105,21 @@ using ResultSink = FunctionRef<void(std::string_view)>;
 ///            scene::BoxValues refuses. Too little memory, a distance or a region that is none, or values of a second
 ///            set that there is not, throw InvalidArgument.
 ///            What was complete stays in the work folder.
-/// Cost:      the inputs are read twice, and once more where cells have to be cut again; options.memory; on disk 32
-///            bytes per box and copy (56 in float64), 8 more with margins and 8 for each two of groups, categories and
-///            masks, and 8 per pair (16 of more than 2^32 boxes in a set); as many per pair for the result, on the disk
-///            of options.output. Where a disk is estimated to be too small it throws before it writes.
+/// Cost:      the inputs are read twice, and up to three times more where cells have to be cut again; options.memory;
+///            on disk 32 bytes per box and copy (56 in float64), 8 more with margins and 8 for each two of groups,
+///            categories and masks, and 8 per pair (16 of more than 2^32 boxes in a set); as many per pair for the
+///            result, on the disk of options.output. Where a disk is estimated to be too small it throws before it
+///            writes.
 /// Resume:    what is complete is in a manifest, which is replaced atomically, with checksums of the files; a file that
 ///            was damaged is made again, and a manifest that was throws FileError. So do inputs of another size or time
 ///            of change than before. The result's bytes are the same.
 JoinSummary joinFiles(Span<const std::filesystem::path> inputs, ResultSink sink, const JoinOptions& options);
 
 /// The same into a file, which appears when it is complete, beside which it is written; options.commit and
-/// options.output are not used. Killed meanwhile it leaves a file of that name, a number and ".part", which a join that is
-/// resumed removes. The default work folder is `output` with ".work" behind it. Where `output` is a link its target is
-/// replaced; permissions stay. One that is there and is no file, or is one of the inputs, throws FileError.
+/// options.output are not used. Killed meanwhile it leaves a file of that name, a number and ".part", which a join that
+/// is resumed removes. The default work folder is `output` with ".work" behind it. Where `output` is a link its target
+/// is replaced; permissions stay. One that is there and is no file, is one of the inputs, or cannot be written throws
+/// FileError before anything is read. It is on the disk before it has its name and the work folder goes.
 JoinSummary joinFiles(Span<const std::filesystem::path> inputs, const std::filesystem::path& output,
                       const JoinOptions& options = {});
 

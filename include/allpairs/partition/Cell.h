@@ -79,13 +79,16 @@ struct Cell {
 [[nodiscard]] inline Box reachOf(const Box& box, double margin = 0.0, double distance = 0.0,
                                  double maxMargin = 0.0) noexcept {
   if (isEmpty(box)) return kEmptyBox;
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   const double asFirst = (distance + margin) + maxMargin;
   const double asSecond = (distance + maxMargin) + margin;
-  const double widening = asFirst < asSecond ? asSecond : asFirst;
+  const double greater = asFirst < asSecond ? asSecond : asFirst;
+  // A NaN is the sum of infinities, of which a lesser margin than the greatest may make any number.
+  const double widening = asFirst != asFirst || asSecond != asSecond ? kInfinity : greater;
   Box reach = box;
   for (double& max : reach.max) {
     // To infinity also from -infinity, where the sum would be NaN.
-    const double widened = widening == std::numeric_limits<double>::infinity() ? widening : max + widening;
+    const double widened = widening == kInfinity ? widening : max + widening;
     if (max < widened) max = widened;
   }
   return reach;
@@ -126,7 +129,8 @@ class CellSearch {
 
  private:
   struct State;
-  std::unique_ptr<State> m_state;
+  State& state();
+  std::unique_ptr<State> m_state;  ///< Null in an object that has been moved from, which is used as a new one.
 };
 
 /// The pairs among the boxes of a set that belong to the cell, by the boxes' ids: first < second.

@@ -123,6 +123,14 @@ inline constexpr std::size_t kBoxesPerCell = std::size_t{1} << 18;
 [[nodiscard]] std::size_t cellsOnRanks(std::uint64_t boxes, std::size_t ranks,
                                        std::size_t boxesPerCell = kBoxesPerCell) noexcept;
 
+/// A cell of no more boxes is no burden to a rank, though nothing divides it.
+inline constexpr std::uint64_t kLeastCrowded = std::uint64_t{1} << 16;
+
+/// The most boxes of a cell that a search on several ranks leaves to one of them: its share of all. Those of a cell
+/// with more are sent to all ranks, as wide boxes are.
+[[nodiscard]] std::uint64_t mostInCellOnRanks(std::uint64_t boxes, std::size_t ranks,
+                                              std::uint64_t least = kLeastCrowded) noexcept;
+
 /// The greatest margin of a box; -infinity if there is none.
 [[nodiscard]] double greatestMargin(const BoxView& boxes) noexcept;
 
