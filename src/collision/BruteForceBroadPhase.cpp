@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "allpairs/collision/BruteForceBroadPhase.h"
 
-#include <cmath>
+#include <array>
+#include <charconv>
 #include <string>
 #include <utility>
 
@@ -13,11 +14,17 @@
 namespace allpairs::collision {
 namespace {
 
+/// The shortest text that reads as the same number.
+std::string textOf(double number) {
+  std::array<char, 32> text;
+  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), number).ptr};
+}
+
 void checkRegion(const Box& box) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (!(box.min[axis] < box.max[axis])) {
       throw InvalidArgument("the region box does not have min < max on the " + std::string(1, "xyz"[axis]) +
-                            " axis: " + std::to_string(box.min[axis]) + " to " + std::to_string(box.max[axis]));
+                            " axis: " + textOf(box.min[axis]) + " to " + textOf(box.max[axis]));
     }
   }
 }
@@ -154,22 +161,26 @@ PairRule BruteForceBroadPhase::selfRule(core::CollisionModel* cm) const {
   CollisionModel* last = cm->getLast();
   if (!cm->isSimulated()) return PairRule::NotSimulated;
   if (!last->canCollideWith(last)) return PairRule::OneOwner;
-  return PairRules::rootsMayTouch(cm, cm, *getIntersectionMethod(), false) ? PairRule::None : PairRule::Apart;
+  return PairRules::ruleOfRoots(cm, cm, *getIntersectionMethod());
 }
 
 PairVerdict BruteForceBroadPhase::judge(core::CollisionModel* newer, core::CollisionModel* older) {
   State step;
+  // The levels above the elements may be gone once a tree is computed.
+  if (newer != nullptr) newer = newer->getLast();
+  if (older != nullptr) older = older->getLast();
   for (core::CollisionModel* model : {older, newer}) {
     if (const PairRule rule = add(step, model); rule != PairRule::None) return {rule, model};
   }
-  if (older->getLast() != newer->getLast()) return {step.rules.judge(1, 0).rule, nullptr};
+  if (older != newer) return {step.rules.judge(1, 0).rule, nullptr};
   const PairRule rule = selfRule(newer);
   const bool isOurs = step.models.row(0).has(ModelRow::kDefaultRules);
   return {rule == PairRule::OneOwner && !isOurs ? PairRule::Refused : rule, nullptr};
 }
 
 bool BruteForceBroadPhase::intersectWithBoxModel(core::CollisionModel* cm) {
-  return !m_state->region || PairRules::rootsMayTouch(cm, m_state->region.get(), *getIntersectionMethod(), true);
+  if (!m_state->region) return true;
+  return PairRules::ruleOfRoots(cm, m_state->region.get(), *getIntersectionMethod()) != PairRule::Apart;
 }
 
 void BruteForceBroadPhase::setBox(const Vec3& min, const Vec3& max) { m_state->box = Box{min, max}; }

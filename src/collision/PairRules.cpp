@@ -42,14 +42,14 @@ void PairRules::setMethod(Intersection* method) {
   m_types = 0;
 }
 
-bool PairRules::rootsMayTouch(CollisionModel* first, CollisionModel* second, Intersection& method, bool otherwise) {
+PairRule PairRules::ruleOfRoots(CollisionModel* first, CollisionModel* second, Intersection& method) {
   CollisionModel* firstRoot = first->getFirst();
   CollisionModel* secondRoot = second->getFirst();
   bool swap = false;
   const ElementIntersector* intersector = method.findIntersector(firstRoot, secondRoot, swap);
-  if (intersector == nullptr) return otherwise;
+  if (intersector == nullptr) return PairRule::NoIntersector;
   if (swap) std::swap(firstRoot, secondRoot);
-  return intersector->canIntersect({firstRoot, 0}, {secondRoot, 0}, method);
+  return intersector->canIntersect({firstRoot, 0}, {secondRoot, 0}, method) ? PairRule::None : PairRule::Apart;
 }
 
 std::optional<CollisionModelPair> PairRules::ask(std::size_t newer, std::size_t older, bool boxesAreNear) {
@@ -80,7 +80,7 @@ PairRule PairRules::refusalOf(const ModelRow& a, const ModelRow& b) {
 PairRules::Judgement PairRules::judge(std::size_t newer, std::size_t older) const {
   const ModelRow& a = m_models.row(newer);
   const ModelRow& b = m_models.row(older);
-  if (!a.has(ModelRow::kSimulated) && !b.has(ModelRow::kSimulated)) return {PairRule::NotSimulated};
+  if (!a.model->isSimulated() && !b.model->isSimulated()) return {PairRule::NotSimulated};
   if (!BruteForceBroadPhase::keepCollisionBetween(a.model->getLast(), b.model->getLast())) return {refusalOf(a, b)};
   const Link link = findLink(a.model, b.model);
   if (link.intersector == nullptr) return {PairRule::NoIntersector};
@@ -115,7 +115,8 @@ void PairRules::countTypes() {
 }
 
 PairRules::Link PairRules::linkOf(const ModelRow& newer, const ModelRow& older) {
-  if (!m_methodIsOurs) return findLink(newer.model, older.model);  // a user's findIntersector() may look beyond types
+  // A user's findIntersector() may look beyond types. What was found before the method changed may be destroyed.
+  if (!m_methodIsOurs || m_method->revision() != m_revision) return findLink(newer.model, older.model);
   countTypes();
   Link& link = m_links[newer.type * m_types + older.type];
   if (link.kind == Kind::Unknown) link = findLink(newer.model, older.model);

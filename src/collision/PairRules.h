@@ -72,9 +72,8 @@ class PairRules {
   /// The same by the virtual functions of models, method and intersector alone.
   [[nodiscard]] Judgement judge(std::size_t newer, std::size_t older) const;
 
-  /// Whether a root may touch another's, or its own, asked through the method; null intersectors give `otherwise`.
-  [[nodiscard]] static bool rootsMayTouch(CollisionModel* first, CollisionModel* second, Intersection& method,
-                                          bool otherwise);
+  /// Whether a root may touch another's, or its own, asked through the method: None, NoIntersector or Apart.
+  [[nodiscard]] static PairRule ruleOfRoots(CollisionModel* first, CollisionModel* second, Intersection& method);
 
  private:
   enum class Kind : unsigned char { Unknown, None, Boxes, Custom };
@@ -100,7 +99,7 @@ class PairRules {
   bool m_addsContactDistances = false;
   bool m_methodIsOurs = false;
   std::size_t m_types = 0;
-  std::vector<Link> m_links;  // by (type of newer, type of older), for m_types types
+  std::vector<Link> m_links;  // by (type of newer, type of older), for m_types types; of the method at m_revision
 };
 
 }  // namespace allpairs::collision

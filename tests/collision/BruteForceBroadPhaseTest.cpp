@@ -90,6 +90,19 @@ TEST_F(Component, FlagsGroupsDistancesAndBoxesAreReadWhenAModelIsAdded) {
   EXPECT_EQ(numbers(m_phase.getCollisionModelPairs()), (Numbers{{1, 0}}));
 }
 
+TEST_F(Component, TheDoubleLoopReadsFlagsOfBothModelsForEachPair) {
+  addTouching(2);
+  m_owned[1]->setSimulated(false);
+  m_phase.setStrategy(Strategy::Exhaustive);
+  m_phase.beginBroadPhase();
+  m_phase.addCollisionModel(m_models[0]);
+  m_owned[0]->setSimulated(false);
+  m_phase.addCollisionModel(m_models[1]);
+  EXPECT_EQ(numbers(m_phase.getCollisionModelPairs()), Numbers{});
+  m_owned[0]->setSimulated(true);
+  EXPECT_THROW(m_phase.verify(), VerificationError);
+}
+
 TEST_F(Component, AModelWhosePositionsWereSetGetsANewRootWhenItIsAdded) {
   add(unitBoxAt(0.0));
   add(unitBoxAt(5.0));
@@ -246,6 +259,10 @@ TEST_F(Component, ARegionThatIsNoBoxIsAnError) {
   EXPECT_NE(problem({0.0, 1.0, 0.0}, {1.0, 0.0, 1.0}).find("y axis"), std::string::npos);
   EXPECT_NE(problem({0.0, 0.0, 1.0}, {1.0, 1.0, 1.0}).find("z axis"), std::string::npos);
   EXPECT_NE(problem({kNan, 0.0, 0.0}, {1.0, 1.0, 1.0}).find("x axis"), std::string::npos);
+  EXPECT_EQ(problem({2e-9, 0.0, 0.0}, {1e-9, 1.0, 1.0}),
+            "the region box does not have min < max on the x axis: 2e-09 to 1e-09");
+  EXPECT_EQ(problem({0.1, 0.0, 0.0}, {0.1, 1.0, 1.0}),
+            "the region box does not have min < max on the x axis: 0.1 to 0.1");
   EXPECT_EQ(problem({0.0, 0.0, 0.0}, {1.0, 1.0, 1.0}), "");
 }
 
@@ -280,6 +297,10 @@ TEST_F(Component, ABoxWithANanIsRefusedByTheModelsName) {
   EXPECT_EQ(m_phase.statistics().pairs, 0U);
   m_phase.addCollisionModel(&add(unitBoxAt(0.5)));  // the step goes on without it
   EXPECT_EQ(numbers(m_phase.getCollisionModelPairs()), (Numbers{{1, 0}}));
+  addAgain(model);
+  addTouching(1);
+  EXPECT_THROW(step(), InvalidBox);
+  EXPECT_EQ(numbers(m_phase.getCollisionModelPairs()), (Numbers{{1, 0}})) << "those before it have been added";
 }
 
 TEST_F(Component, AMissingMethodIsAnError) {
@@ -359,6 +380,37 @@ TEST_F(Component, AStepCanChangeItsMethodOnTheWay) {
   m_phase.setIntersectionMethod(&wide);
   m_phase.addCollisionModel(m_models[2]);
   EXPECT_EQ(numbers(m_phase.getCollisionModelPairs()), (Numbers{{2, 1}}));
+}
+
+/// Says the same of all roots.
+class ConstantIntersector : public ElementIntersector {
+ public:
+  explicit ConstantIntersector(bool answer) : m_answer(answer) {}
+  [[nodiscard]] bool canIntersect(const CollisionElement& /*first*/, const CollisionElement& /*second*/,
+                                  const Intersection& /*method*/) const override {
+    return m_answer;
+  }
+
+ private:
+  bool m_answer;
+};
+
+TEST_F(Component, AnIntersectorThatIsReplacedBeforeTheListIsReadIsNotAskedAnyMore) {
+  const auto replaceBy = [this](std::shared_ptr<ElementIntersector> intersector) {
+    m_method.add<BoundingBoxModel, BoundingBoxModel>(std::move(intersector));
+  };
+  addTouching(3);
+  replaceBy(std::make_shared<ConstantIntersector>(true));
+  m_phase.beginBroadPhase();
+  m_phase.addCollisionModel(m_models[0]);
+  m_phase.addCollisionModel(m_models[1]);
+  EXPECT_EQ(numbers(m_phase.getCollisionModelPairs()), (Numbers{{1, 0}}));
+  m_phase.addCollisionModel(m_models[2]);
+  replaceBy(std::make_shared<ConstantIntersector>(false));
+  EXPECT_EQ(numbers(m_phase.getCollisionModelPairs()), (Numbers{{1, 0}}));
+  m_phase.addCollisionModel(m_models[2]);
+  replaceBy(nullptr);
+  EXPECT_EQ(numbers(m_phase.getCollisionModelPairs()), (Numbers{{1, 0}}));
 }
 
 TEST_F(Component, ManyModelsOfManyGroupsAreFoundAsTheDoubleLoopFindsThem) {

@@ -276,6 +276,46 @@ TEST_F(Rules, TypesWithoutIntersectorAreNoPair) {
   EXPECT_EQ(detect(), Numbers{});
 }
 
+/// A method without any intersector.
+class EmptyMethod : public Intersection {};
+
+TEST_F(Rules, AVerdictOfAModelAndItselfNamesAMissingIntersectorAfterTheFlags) {
+  EmptyMethod method;
+  BruteForceBroadPhase phase;
+  phase.setIntersectionMethod(&method);
+  BoxModel& model = add(unitBoxAt(0.0));
+  EXPECT_EQ(phase.judge(&model, &model).rule, PairRule::OneOwner);
+  model.setSelfCollision(true);
+  EXPECT_EQ(phase.judge(&model, &model).rule, PairRule::NoIntersector);
+  phase.setIntersectionMethod(&m_method);
+  EXPECT_TRUE(phase.judge(&model, &model).isPair());
+  BoxModel& empty = add({{1.0, 0.0, 0.0}, {0.0, 1.0, 1.0}});
+  empty.setSelfCollision(true);
+  EXPECT_EQ(phase.judge(&empty, &empty).rule, PairRule::Apart);
+}
+
+TEST_F(Rules, AVerdictMayBeAskedOfLevelsThatAreGoneOnceItsTreesAreComputed) {
+  BoxModel many("many", std::vector<Box>(16, unitBoxAt(0.0)));
+  many.setSelfCollision(true);
+  BoxModel& other = add(unitBoxAt(0.5));
+  BruteForceBroadPhase phase;
+  phase.setIntersectionMethod(&m_method);
+  const auto staleLevel = [&many] {
+    many.computeBoundingTree(3);
+    many.boundsChanged();
+    return many.getPrevious();
+  };
+  EXPECT_TRUE(phase.judge(staleLevel(), &other).isPair());
+  EXPECT_TRUE(phase.judge(&other, staleLevel()).isPair());
+  CollisionModel* const level = staleLevel();
+  EXPECT_TRUE(phase.judge(level, level).isPair());
+  phase.setBox({10.0, 10.0, 10.0}, {11.0, 11.0, 11.0});
+  phase.init();
+  const PairVerdict verdict = phase.judge(&other, staleLevel());
+  EXPECT_EQ(verdict.rule, PairRule::OutsideRegion);
+  EXPECT_EQ(verdict.model, &many);
+}
+
 TEST_F(Rules, AMethodThatCannotBoundItsDistanceIsAskedAboutEveryPairEmptyBoxesIncluded) {
   UserUnboundedMethod method;
   add(unitBoxAt(0.0));

@@ -39,7 +39,9 @@ class BroadPhaseDetection {
   /// Starts a step: the list of pairs is empty afterwards.
   virtual void beginBroadPhase() = 0;
 
-  /// Adds one model, by any of its levels.
+  /// Adds one model, by any of its levels. Computing its bounding tree, where that is not current, may destroy the
+  /// levels between its root and its elements: a model that is added twice, also by one list, must be given by one of
+  /// these two.
   virtual void addCollisionModel(core::CollisionModel* cm) = 0;
 
   /// Adds several models, in order.

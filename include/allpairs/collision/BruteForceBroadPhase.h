@@ -50,9 +50,10 @@ class VerificationError : public Error {
 ///            bound its distance. In a steady state nothing is allocated.
 /// Threads:   one step at a time per object; the search runs on the executor, rules and intersectors are called from
 ///            the calling thread.
-/// Memory:    after a call that threw, whether std::bad_alloc or an exception of a model or method, the list of pairs
-///            is unchanged, reading it tries again, and the next step behaves like that of a new object. With
-///            Strategy::Exhaustive a model whose addition threw for one of its pairs has been added.
+/// Memory:    after a call that threw, whether std::bad_alloc or an exception of a model or method, reading the list of
+///            pairs tries again, no pair comes twice, and the next step behaves like that of a new object. Of
+///            addCollisionModels(), the models before the one that threw have been added; with Strategy::Exhaustive
+///            also one whose addition threw for one of its pairs.
 /// Callbacks: models and methods may use other objects; they must not call the broad phase that calls them.
 class BruteForceBroadPhase : public BroadPhaseDetection {
  public:

@@ -23,7 +23,9 @@ enum class PairRule : std::uint8_t {
 /// Whether two models are a pair, and why not.
 struct PairVerdict {
   PairRule rule = PairRule::None;
-  const CollisionModel* model = nullptr;  ///< The one at fault, of NoElements and OutsideRegion; else null.
+
+  /// The one at fault, of NoElements and OutsideRegion, at the level of its elements; else null.
+  const CollisionModel* model = nullptr;
 
   [[nodiscard]] bool isPair() const { return rule == PairRule::None; }
 };
