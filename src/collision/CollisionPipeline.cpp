@@ -35,7 +35,9 @@ void CollisionPipeline::init() {
 }
 
 void CollisionPipeline::initOnce() {
-  if (!m_initialised || m_broadPhase->getIntersectionMethod() != m_method) init();
+  if (!m_initialised || m_broadPhase->getIntersectionMethod() != m_method) return init();
+  if (m_narrowPhase == nullptr || m_narrowPhase->getIntersectionMethod() == m_method) return;
+  m_narrowPhase->setIntersectionMethod(m_method);  // another pipeline uses it too, with a method of its own
 }
 
 void CollisionPipeline::reset() {

@@ -149,6 +149,27 @@ TEST_F(Pipeline, ANarrowPhaseMayBeSetAfterAStep) {
   EXPECT_EQ(numbers(m_pipeline.step(m_models)), (Numbers{{1, 0}, {2, 0}, {2, 1}}));
 }
 
+TEST_F(Pipeline, ANarrowPhaseOfTwoPipelinesUsesTheMethodOfTheOneThatRuns) {
+  MinProximityIntersection wide;
+  wide.setAlarmDistance(5.0);
+  BruteForceBroadPhase otherPhase;
+  CollisionPipeline other;
+  ElementNarrowPhase narrow;
+  other.setIntersectionMethod(&wide);
+  other.setBroadPhase(&otherPhase);
+  other.setNarrowPhase(&narrow);
+  m_pipeline.setNarrowPhase(&narrow);
+  BoxModel pair("two boxes", {unitBoxAt(0.0), unitBoxAt(4.0)});
+  pair.setOwner(&pair);
+  m_models = {m_counting[0].get(), &pair};
+  for (int i = 0; i < 2; ++i) {
+    static_cast<void>(m_pipeline.step(m_models));
+    EXPECT_EQ(narrow.getElementPairs().size(), 1U);
+    static_cast<void>(other.step(m_models));
+    EXPECT_EQ(narrow.getElementPairs().size(), 2U);
+  }
+}
+
 TEST_F(Pipeline, AMissingMethodOrBroadPhaseIsAnError) {
   CollisionPipeline pipeline;
   EXPECT_THROW(pipeline.step(m_models), InvalidArgument);
