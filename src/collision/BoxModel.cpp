@@ -22,6 +22,7 @@ BoxModel::BoxModel(std::string name, const Box& box) : BoxModel(std::move(name),
 
 void BoxModel::setBoxes(std::vector<Box> boxes) {
   for (std::size_t i = 0; i < boxes.size(); ++i) checkBox(*this, i, boxes[i]);
+  if (boxes.size() != m_boxes.size()) setVelocities({});
   m_boxes = std::move(boxes);
   boundsChanged();
 }

@@ -23,6 +23,7 @@ CapsuleModel::CapsuleModel(std::string name, std::vector<Capsule> capsules) : So
 
 void CapsuleModel::setCapsules(std::vector<Capsule> capsules) {
   for (std::size_t i = 0; i < capsules.size(); ++i) checkCapsule(*this, i, capsules[i]);
+  if (capsules.size() != m_capsules.size()) setVelocities({});
   m_capsules = std::move(capsules);
   boundsChanged();
 }

@@ -44,6 +44,7 @@ OrientedBoxModel::OrientedBoxModel(std::string name, std::vector<OrientedBox> bo
 
 void OrientedBoxModel::setBoxes(std::vector<OrientedBox> boxes) {
   for (std::size_t i = 0; i < boxes.size(); ++i) checkOrientedBox(*this, i, boxes[i]);
+  if (boxes.size() != m_boxes.size()) setVelocities({});
   m_boxes = std::move(boxes);
   boundsChanged();
 }

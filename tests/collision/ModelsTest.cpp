@@ -161,6 +161,30 @@ TEST(Models, ContinuousBoxesOfSolidsHoldStartAndEndOfTheStep) {
   }
 }
 
+TEST(Models, SolidsOfAnotherNumberHaveNoVelocitiesAndOfTheSameNumberKeepTheirs) {
+  const std::vector<Vec3> velocity{{4.0, 0.0, 0.0}};
+  BoxModel boxes("b", cube(0.0, 0.0, 0.0));
+  CapsuleModel capsules("c", {Capsule{}});
+  OrientedBoxModel oriented("o", {OrientedBox{}});
+  for (SolidModel* model :
+       {static_cast<SolidModel*>(&boxes), static_cast<SolidModel*>(&capsules), static_cast<SolidModel*>(&oriented)}) {
+    model->setVelocities(velocity);
+  }
+  boxes.setBoxes({cube(1.0, 0.0, 0.0)});
+  capsules.setCapsules({Capsule{}});
+  oriented.setBoxes({OrientedBox{}});
+  EXPECT_EQ(boxes.velocities(), velocity);
+  EXPECT_EQ(capsules.velocities(), velocity);
+  EXPECT_EQ(oriented.velocities(), velocity);
+  boxes.setBoxes({cube(1.0, 0.0, 0.0), cube(2.0, 0.0, 0.0)});
+  capsules.setCapsules({});
+  oriented.setBoxes({OrientedBox{}, OrientedBox{}});
+  EXPECT_TRUE(boxes.velocities().empty());
+  EXPECT_TRUE(capsules.velocities().empty());
+  EXPECT_TRUE(oriented.velocities().empty());
+  EXPECT_EQ(boxes.elementSweptBox(0, 1.0), cube(1.0, 0.0, 0.0));
+}
+
 TEST(Models, AnEmptyElementThatMovesStaysEmptyHoweverItsEndIsRounded) {
   BoxModel box("b", Box{{1.0, 1.0, 1.0}, {0.0, 0.0, 0.0}});
   box.setVelocities({{1e17, 1e17, 1e17}});

@@ -17,6 +17,8 @@ class BoxModel : public SolidModel {
   BoxModel(std::string name, const Box& box);
 
   [[nodiscard]] const std::vector<Box>& boxes() const { return m_boxes; }
+
+  /// Replaces the boxes. Another number of them removes the velocities.
   void setBoxes(std::vector<Box> boxes);
   void setBox(std::size_t index, const Box& box);
 

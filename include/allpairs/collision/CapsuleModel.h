@@ -24,6 +24,8 @@ class CapsuleModel : public SolidModel {
   CapsuleModel(std::string name, std::vector<Capsule> capsules);
 
   [[nodiscard]] const std::vector<Capsule>& capsules() const { return m_capsules; }
+
+  /// Replaces the capsules. Another number of them removes the velocities.
   void setCapsules(std::vector<Capsule> capsules);
 
   [[nodiscard]] std::size_t getSize() const override { return m_capsules.size(); }

@@ -31,6 +31,8 @@ class OrientedBoxModel : public SolidModel {
   OrientedBoxModel(std::string name, std::vector<OrientedBox> boxes);
 
   [[nodiscard]] const std::vector<OrientedBox>& boxes() const { return m_boxes; }
+
+  /// Replaces the boxes. Another number of them removes the velocities.
   void setBoxes(std::vector<OrientedBox> boxes);
 
   [[nodiscard]] std::size_t getSize() const override { return m_boxes.size(); }

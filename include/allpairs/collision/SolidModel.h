@@ -10,7 +10,8 @@ namespace allpairs::collision {
 /// Base of the models whose elements are whole bodies, each with one velocity: boxes, spheres, capsules.
 class SolidModel : public CollisionModel {
  public:
-  /// One velocity per element, for continuous methods; an empty vector means that nothing moves.
+  /// One velocity per element, for continuous methods; an empty vector means that nothing moves. Velocities stay until
+  /// the number of elements changes.
   ///
   /// Bad input: a wrong length or a number that is not finite throws InvalidArgument.
   void setVelocities(std::vector<Vec3> velocities);
