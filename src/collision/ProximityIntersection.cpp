@@ -4,6 +4,12 @@
 #include "allpairs/collision/BoundingBoxModel.h"
 
 namespace allpairs::collision {
+namespace {
+
+/// Whether a level is that of the elements, below boxes.
+bool isBelowBoxes(const CollisionModel& level) { return level.getLast() == &level && level.getFirst() != &level; }
+
+}  // namespace
 
 ProximityIntersection::ProximityIntersection() {
   setAlarmDistance(kDefaultAlarmDistance);
@@ -17,7 +23,7 @@ void ProximityIntersection::setContactDistanceInBroadPhase(bool on) {
 }
 
 double ProximityIntersection::distanceBetween(const CollisionModel& first, const CollisionModel& second) const {
-  if (!m_contactDistanceInBroadPhase) return getAlarmDistance();
+  if (!m_contactDistanceInBroadPhase && !isBelowBoxes(first) && !isBelowBoxes(second)) return getAlarmDistance();
   return getAlarmDistance() + first.getContactDistance() + second.getContactDistance();
 }
 

@@ -49,6 +49,22 @@ TEST_F(NarrowPhase, TheDistanceIsTheMethods) {
   EXPECT_EQ(elementsOf(m_phase), (std::vector<IndexPair>{{0, 2}, {1, 0}, {1, 1}}));
 }
 
+TEST_F(NarrowPhase, ElementsHaveContactDistancesWhetherTheRootsHaveThemOrNot) {
+  m_first.setContactDistance(0.5);
+  m_first.computeBoundingTree(2);
+  m_second.computeBoundingTree();
+  m_phase.addCollisionPair({m_second.getFirst(), m_first.getFirst()});
+  const std::vector<IndexPair> pairs = elementsOf(m_phase);
+  EXPECT_EQ(pairs, (std::vector<IndexPair>{{0, 2}, {1, 0}, {1, 1}}));
+  m_method.setContactDistanceInBroadPhase(false);
+  m_phase.beginNarrowPhase();
+  m_phase.addCollisionPair({m_second.getFirst(), m_first.getFirst()});
+  EXPECT_EQ(elementsOf(m_phase), pairs);
+  EXPECT_EQ(m_method.distanceBetween(*m_first.getFirst(), *m_second.getFirst()), 0.0);
+  EXPECT_EQ(m_method.distanceBetween(*m_first.getPrevious(), *m_second.getPrevious()), 0.0) << "boxes above elements";
+  EXPECT_EQ(m_method.distanceBetween(m_first, m_second), 0.5);
+}
+
 TEST_F(NarrowPhase, AModelWithItselfGivesEachPairOfElementsOnce) {
   const std::vector<Box> boxes = toDouble(randomBoxes(60, 21));
   BoxModel model("self", boxes);

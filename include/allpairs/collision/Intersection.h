@@ -33,7 +33,7 @@ class Intersection {
   [[nodiscard]] double getAlarmDistance() const { return m_alarmDistance; }
   void setAlarmDistance(double distance);
 
-  /// The distance at which models count as touching. Not used in the broad phase.
+  /// The distance at which models count as touching. Kept for the host; nothing in this library reads it.
   ///
   /// Bad input: NaN and infinities throw InvalidArgument.
   [[nodiscard]] double getContactDistance() const { return m_contactDistance; }

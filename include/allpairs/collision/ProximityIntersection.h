@@ -14,7 +14,8 @@ class ProximityIntersection : public Intersection {
   static constexpr double kDefaultAlarmDistance = 1.0;
   static constexpr double kDefaultContactDistance = 0.5;
 
-  /// Whether the models' contact distances are added for root boxes; on by default.
+  /// Whether the models' contact distances are added for root boxes, and those of further levels; on by default. For
+  /// elements they always are.
   [[nodiscard]] bool getContactDistanceInBroadPhase() const { return m_contactDistanceInBroadPhase; }
   void setContactDistanceInBroadPhase(bool on);
 
