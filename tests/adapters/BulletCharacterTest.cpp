@@ -199,5 +199,38 @@ TEST_F(GhostTest, ThatIsACharacterHasAMarginAndAnyOtherHasNone) {
   EXPECT_EQ(tally.count, 0) << "a box meets the ghost's own box only";
 }
 
+/// What a ray hits, in the order in which it is told.
+struct RayHits : btBroadphaseRayCallback {
+  std::vector<const btBroadphaseProxy*> found;
+  bool process(const btBroadphaseProxy* proxy) override {
+    found.push_back(proxy);
+    return true;
+  }
+};
+
+TEST_F(GhostTest, ThatIsACharacterIsHitByRaysInItsOwnBoxOnly) {
+  open(standard());
+  ghost().setCollisionFlags(btCollisionObject::CF_CHARACTER_OBJECT);
+  add(btScalar(0.02));
+  const btBroadphaseProxy* const character = ghost().getBroadphaseHandle();
+  const btBroadphaseProxy* const body = standard().proxyOf(0);
+  ASSERT_NE(body, character);
+  const auto hits = [this](const btVector3& from, const btVector3& to, btScalar radius = 0) {
+    RayHits ray;
+    const btVector3 half(radius, radius, radius);
+    standard().rayTest(from, to, ray, -half, half);
+    return ray.found;
+  };
+  using ::testing::ElementsAre;
+  EXPECT_THAT(hits({-9, 0, 0}, {9, 0, 0}), ElementsAre(body, character)) << "its margin comes first, its box does not";
+  EXPECT_THAT(hits({9, 0, 0}, {-9, 0, 0}), ElementsAre(character, body));
+  const btScalar above = character->m_aabbMax.y() + btScalar(0.03);
+  EXPECT_THAT(hits({-9, above, 0}, {9, above, 0}), ::testing::IsEmpty()) << "passes through its margin";
+  EXPECT_THAT(hits({9, 0, 0}, {character->m_aabbMax.x() + btScalar(0.03), 0, 0}), ::testing::IsEmpty());
+  EXPECT_THAT(hits({-9, above, 0}, {9, above, 0}, btScalar(0.04)), ElementsAre(body, character));
+  ghost().setCollisionFlags(0);
+  EXPECT_THAT(hits({-9, above, 0}, {9, above, 0}), ::testing::IsEmpty()) << "its box in the world is still enlarged";
+}
+
 }  // namespace
 }  // namespace allpairs::test

@@ -126,20 +126,16 @@ class BulletBroadphase : public btBroadphaseInterface {
     aabbMax = proxy->m_aabbMax;
   }
 
-  /// Calls the callback for each box that the ray, or the given box along the ray, hits: from near to far. A ray or a
-  /// box that is not finite hits nothing, as in Bullet.
+  /// Calls the callback for each box that the ray, or the given box along the ray, hits: from near to far. Those of
+  /// characters count without their margin. A ray or a box that is not finite hits nothing, as in Bullet.
   // NOLINTNEXTLINE(readability-function-size): the parameters are Bullet's.
   void rayTest(const btVector3& rayFrom, const btVector3& rayTo, btBroadphaseRayCallback& rayCallback,
                const btVector3& aabbMin = btVector3(0, 0, 0), const btVector3& aabbMax = btVector3(0, 0, 0)) override {
     if (!internal::areFinite({rayFrom, rayTo, aabbMin, aabbMax})) return;
-    const std::array<double, 3> from = internal::toArray(rayFrom);  // Bullet's own sums are rounded to its precision.
-    BoxSweep sweep{internal::toBox(aabbMin, aabbMax), internal::toArray(rayTo)};
-    for (std::size_t k = 0; k < 3; ++k) {
-      sweep.box.min[k] += from[k];
-      sweep.box.max[k] += from[k];
-      sweep.motion[k] -= from[k];
-    }
-    for (const SweepHit& hit : m_world.findAll(sweep)) rayCallback.process(&m_proxies[hit.id]);
+    const BoxSweep sweep = internal::sweepOf(internal::toBox(aabbMin, aabbMax), rayFrom, rayTo);
+    std::vector<SweepHit> hits = m_world.findAll(sweep);
+    useOwnBoxes(sweep, hits);
+    for (const SweepHit& hit : hits) rayCallback.process(&m_proxies[hit.id]);
   }
 
   /// Calls the callback for each box that overlaps another: none that has a NaN.
@@ -147,7 +143,7 @@ class BulletBroadphase : public btBroadphaseInterface {
     const Box box = internal::toBox(aabbMin, aabbMax);
     if (hasNan(box)) return;
     for (const BoxId id : m_world.findOverlapping(box)) {
-      if (overlaps(m_proxies[id], aabbMin, aabbMax)) callback.process(&m_proxies[id]);  // not only its reach
+      if (internal::overlap(m_proxies[id], aabbMin, aabbMax)) callback.process(&m_proxies[id]);  // not only its reach
     }
   }
 
@@ -196,11 +192,11 @@ class BulletBroadphase : public btBroadphaseInterface {
 
   void printStats() override {}
 
-  /// The world that holds the boxes, for its statistics and for queries that Bullet does not have. Add, move and remove
-  /// boxes through this class only.
+  /// The world that holds the boxes, those of characters with their margin, for its statistics and for queries that
+  /// Bullet does not have. Add, move and remove boxes through this class only.
   [[nodiscard]] World& world() { return m_world; }
 
-  /// The proxy of a box of world(), which has that box.
+  /// The proxy of a box of world().
   [[nodiscard]] btBroadphaseProxy* proxyOf(BoxId id) const { return &m_proxies[id]; }
 
  private:
@@ -294,11 +290,19 @@ class BulletBroadphase : public btBroadphaseInterface {
     return internal::toBox(min - margin, max + margin);
   }
 
-  static bool overlaps(const btBroadphaseProxy& proxy, const btVector3& min, const btVector3& max) {
-    for (int axis = 0; axis < 3; ++axis) {
-      if (proxy.m_aabbMin[axis] > max[axis] || min[axis] > proxy.m_aabbMax[axis]) return false;
+  /// What hits the reach of a character need not hit its box, or does so later.
+  void useOwnBoxes(const BoxSweep& sweep, std::vector<SweepHit>& hits) const {
+    bool isChanged = false;
+    for (SweepHit& hit : hits) {
+      const Proxy& proxy = m_proxies[hit.id];
+      const Box box = internal::toBox(proxy.m_aabbMin, proxy.m_aabbMax);
+      if (!proxy.isGhost || m_world.box(hit.id) == box) continue;
+      World alone;
+      alone.add(box);
+      hit.t = alone.findFirst(sweep).t;  // infinite where it is not hit
+      isChanged = true;
     }
-    return true;
+    if (isChanged) internal::sortHits(hits);
   }
 
   template <class Do>

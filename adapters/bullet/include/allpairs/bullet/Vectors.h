@@ -1,16 +1,20 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <BulletCollision/BroadphaseCollision/btBroadphaseProxy.h>
 #include <LinearMath/btVector3.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <initializer_list>
+#include <vector>
 
 #include "allpairs/Box.h"
+#include "allpairs/WorldTypes.h"
 
-/// Bullet's vectors as the broad phase needs them: an implementation detail.
+/// Bullet's vectors and boxes as the broad phase needs them: an implementation detail.
 namespace allpairs::internal {
 
 [[nodiscard]] inline std::array<double, 3> toArray(const btVector3& v) {
@@ -24,6 +28,33 @@ namespace allpairs::internal {
     const std::array<double, 3> x = toArray(point);
     return std::isfinite(x[0]) && std::isfinite(x[1]) && std::isfinite(x[2]);
   });
+}
+
+/// A box that is moved from one place to another. Bullet's own sums are rounded to its precision.
+[[nodiscard]] inline BoxSweep sweepOf(const Box& box, const btVector3& from, const btVector3& to) {
+  const std::array<double, 3> start = toArray(from);
+  BoxSweep sweep{box, toArray(to)};
+  for (std::size_t k = 0; k < 3; ++k) {
+    sweep.box.min[k] += start[k];
+    sweep.box.max[k] += start[k];
+    sweep.motion[k] -= start[k];
+  }
+  return sweep;
+}
+
+/// From near to far, without those that are never met.
+inline void sortHits(std::vector<SweepHit>& hits) {
+  const auto isMissed = [](const SweepHit& hit) { return !std::isfinite(hit.t); };
+  hits.erase(std::remove_if(hits.begin(), hits.end(), isMissed), hits.end());
+  std::sort(hits.begin(), hits.end(),
+            [](const SweepHit& a, const SweepHit& b) { return a.t != b.t ? a.t < b.t : a.id < b.id; });
+}
+
+[[nodiscard]] inline bool overlap(const btBroadphaseProxy& proxy, const btVector3& min, const btVector3& max) {
+  for (int axis = 0; axis < 3; ++axis) {
+    if (proxy.m_aabbMin[axis] > max[axis] || min[axis] > proxy.m_aabbMax[axis]) return false;
+  }
+  return true;
 }
 
 [[nodiscard]] inline btVector3 minimum(btVector3 a, const btVector3& b) {
