@@ -268,6 +268,19 @@ TYPED_TEST(FclManager, GivesThePairsInTheOrderOfRegistrationIfAsked) {
   EXPECT_EQ(candidates(ordered), overlapping(objects));
 }
 
+TYPED_TEST(FclManager, OrdersAnObjectByThePlaceOfTheOneThatLeft) {
+  FclBroadPhaseManager<TypeParam> ordered({.isOrdered = true});
+  auto objects = this->addObjects(400, TypeParam(10));
+  ordered.registerObjects({objects.begin(), objects.begin() + 300});
+  for (std::size_t i = 300; i < 400; ++i) {
+    std::swap(objects[i - 300], objects[i]);
+    ordered.unregisterObject(objects[i]);
+    ordered.registerObject(objects[i - 300]);
+  }
+  objects.resize(300);
+  EXPECT_EQ(candidates(ordered), overlapping(objects));
+}
+
 TYPED_TEST(FclManager, FindsTheSamePairsWhetherFewObjectsMoveOrMany) {
   const auto objects = this->addObjects(500, TypeParam(10));
   this->m_ours.registerObjects(objects);

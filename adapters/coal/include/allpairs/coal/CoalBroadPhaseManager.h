@@ -29,9 +29,10 @@ struct CoalHost {
 /// A broad phase for Coal, the successor of hpp-fcl: use it where you use a coal::DynamicAABBTreeCollisionManager.
 ///
 /// It is to Coal what FclBroadPhaseManager is to FCL, with the same promises; docs/fcl.md has them. In short: callbacks
-/// get the pairs whose boxes overlap, each once, first the object that was registered first, in an order that is the
-/// same each time; a distance callback gets every pair whose boxes overlap or are within the smallest distance
-/// that it has set so far. A callback that returns true ends the query; its init() is called before each.
+/// get the pairs whose boxes overlap, each once, first the object that was registered first, where an object takes the
+/// place of one that left, in an order that is the same each time; a distance callback gets every pair whose boxes
+/// overlap or are within the smallest distance that it has set so far. A callback that returns true ends the query; its
+/// init() is called before each.
 ///
 /// Objects stay the caller's. Their boxes are read when they are registered and by update(). Planes, half-spaces and
 /// octrees count with their boxes, which may be infinite, as in coal::NaiveCollisionManager.

@@ -25,8 +25,8 @@ struct ObjectBroadPhaseOptions {
   /// Runs parallel work; null means on the calling thread. Not owned.
   Executor* executor = nullptr;
 
-  /// Orders the pairs within a manager by the registration of their first object, and then of their second. It takes
-  /// time.
+  /// Orders the pairs within a manager by the registration of their first object, and then of their second, where an
+  /// object takes the place of one that left. It takes time.
   bool isOrdered = false;
 };
 
