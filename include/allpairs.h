@@ -9,16 +9,17 @@
 //
 // A call that fails, because memory is exhausted or a callback stopped it, leaves its handle as it was and usable: the
 // next allpairs_world_step() reports what has changed since the last one that succeeded. Only what an allpairs_search
-// found before is lost by a search that fails, as by one that succeeds. A callback may use other handles, and what
-// takes a const one; else using the handle that is calling it, of allpairs_world_find_between() both, is an
-// ALLPAIRS_INVALID_ARGUMENT, and it must not destroy that handle.
+// found before, or an allpairs_elements of the same kind of candidates, is lost by a search that fails, as by one that
+// succeeds. A callback may use other handles, and what takes a const one; else using the handle that is calling it, of
+// allpairs_world_find_between() both, is an ALLPAIRS_INVALID_ARGUMENT, and it must not destroy that handle.
 //
 // What a failed call would have written, a handle or a structure, is as it was, except the counts of memory of the
 // caller's; arrays of the caller's may have been written to. So set a handle to null before it is created.
 //
 // Structures may grow at their end: struct_size tells the library which fields the caller has. All other fields of
 // options may be 0. A category or mask of 0 is none: begin properties and filters of queries with their defaults.
-// A struct_size that is 0, beyond this library's, or ends within a field is an ALLPAIRS_INVALID_ARGUMENT.
+// A struct_size that is 0, beyond this library's, or no multiple of a structure's alignment is an
+// ALLPAIRS_INVALID_ARGUMENT; other sizes that end within a field are not noticed.
 #pragma once
 
 #include <stdbool.h>

@@ -109,7 +109,7 @@ std::size_t knownSize(const T& given) {
     throw InvalidArgument("struct_size is " + std::to_string(given.struct_size) + "; this library knows up to " +
                           std::to_string(sizeof(T)));
   }
-  if (given.struct_size % alignof(T) != 0) {  // ends within a field
+  if (given.struct_size % alignof(T) != 0) {  // the size of no version of T
     throw InvalidArgument("struct_size is " + std::to_string(given.struct_size) + "; no such structure has that size");
   }
   return given.struct_size;
