@@ -174,7 +174,6 @@ bool AllpairsBroadPhase::isInRegion(sofa::core::CollisionModel& model) const {
 
 void AllpairsBroadPhase::collectPairs() {
   const auto& pairs = m_state->phase.getCollisionModelPairs();
-  cmPairs.reserve(cmPairs.size() + pairs.size() - m_state->collected);
   for (; m_state->collected < pairs.size(); ++m_state->collected) {
     const auto& [first, second] = pairs[m_state->collected];
     cmPairs.emplace_back(hostOf(*first), hostOf(*second));

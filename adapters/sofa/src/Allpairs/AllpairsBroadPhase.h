@@ -16,8 +16,9 @@ namespace allpairs::plugin {
 /// The list of pairs is that of BruteForceBroadPhase on the same models: the same pairs, orientation and order. Models'
 /// root boxes, flags, groups and nodes are read when they are added.
 /// Geometry:  as SOFA's: closed boxes, per axis, in double, within the intersection method's distance.
-/// Bad input: settings that make no sense are reported as errors of the component, and the default is used. Boxes that
-///            are reversed or hold a NaN are tested by SOFA's own intersection method, as without the plugin.
+/// Bad input: settings that make no sense are reported as errors of the component, and the default is used; a reversed
+///            `box` as a warning, and it counts as in SOFA. Root boxes that are reversed or hold a NaN are tested by
+///            SOFA's own intersection method, as without the plugin.
 /// Cost:      one pass over the models and that of allpairs::OverlapSearch on their root boxes. A method that isn't one
 ///            of SOFA's own can't be bounded: each pair of models is asked then, as BruteForceBroadPhase does.
 /// Threads:   the search runs on `threads` threads; SOFA's models and methods are called from the calling thread. Two
