@@ -269,12 +269,14 @@ bool Partition::cutAgain(std::size_t number, const BoxView& sample, std::size_t 
     for (std::size_t axis = 0; axis < 3; ++axis) reach.min[axis] = std::max(reach.min[axis], bounds.min[axis]);
   }
   const std::size_t before = m_cuts.size();
-  const std::int32_t side = Cutter(m_cuts, size()).cut(reaches, number, parts);
-  if (m_cuts.size() == before) return false;
+  std::vector<Cut> cuts = m_cuts;  // which stay where memory ends
+  const std::int32_t side = Cutter(cuts, size()).cut(reaches, number, parts);
+  if (cuts.size() == before) return false;
   for (std::size_t i = 0; i < before; ++i) {
-    if (m_cuts[i].low == sideOfCell(number)) m_cuts[i].low = side;
-    if (m_cuts[i].high == sideOfCell(number)) m_cuts[i].high = side;
+    if (cuts[i].low == sideOfCell(number)) cuts[i].low = side;
+    if (cuts[i].high == sideOfCell(number)) cuts[i].high = side;
   }
+  m_cuts = std::move(cuts);
   return true;
 }
 
