@@ -145,7 +145,9 @@ void Output::write(std::string_view bytes) {
 }
 
 void Output::sync() const {
-  if (isFile() && ::fsync(m_descriptor) != 0) fail("written");
+  struct stat status {};
+  if (::fstat(m_descriptor, &status) != 0 || !S_ISREG(status.st_mode)) return;
+  if (::fsync(m_descriptor) != 0) fail("written");
 }
 
 void Output::complete() {

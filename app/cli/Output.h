@@ -32,7 +32,7 @@ class Output {
 
   void write(std::string_view bytes);
 
-  /// Returns when what was written to a file is on the disk: what it was made from may be removed.
+  /// Returns when what was written to a file is on the disk.
   void sync() const;
 
   /// All of commit() but to put the file in its place, which then takes no memory: of files that appear together.

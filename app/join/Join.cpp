@@ -130,9 +130,10 @@ void runJoin(const JoinSettings& settings) {
     if (settings.count) {
       summary = join::countFiles(inputs, options);
     } else {
-      options.commit = [&output] {
+      options.commit = [&output, &settings, isFile] {  // on disk before what it was made from is removed
         output->sync();
         output->commit();
+        if (isFile) scene::syncNameOf(settings.output);
       };
       options.output = settings.output;
       summary = join::joinFiles(

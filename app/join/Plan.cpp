@@ -64,7 +64,8 @@ std::string ranksText(const join::RanksPlan& plan, const PlanSettings& settings)
                   grouped(plan.boxes / settings.ranks));
   text += fmt::format("cells    {}\n", grouped(plan.cells));
   text += fmt::format("copies   {} of boxes in more than one cell\n", grouped(plan.copies));
-  text += fmt::format("wide     {} in many cells, sent to all ranks\n", grouped(plan.wideBoxes));
+  text += fmt::format("wide     {} sent to all ranks: in many cells, or where no cut divides them\n",
+                      grouped(plan.wideBoxes));
   text += fmt::format("pairs    about {}\n", grouped(plan.pairs));
   return text + fmt::format("network  {} for boxes, about {} for pairs, at most\n", mebibytes(plan.boxBytes),
                             mebibytes(plan.pairBytes));

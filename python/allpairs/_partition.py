@@ -199,7 +199,7 @@ def _by_id(values: dict[str, Any]) -> dict[str, Any]:
     if ids.ndim != 1 or ids.dtype.kind not in "iu" or (ids[1:] >= ids[:-1]).all():
         return values
     order = np.argsort(ids, kind="stable")
-    given = {name: values[name] for name in ("lower", "upper", "ids", *_arguments.OF_EACH_BOX)}
+    given = {name: values[name] for name in ("lower", "upper", *_arguments.OF_EACH_BOX)} | {"ids": ids}
     arrays = {
         name: _arguments.array_of(name, value)
         for name, value in given.items()

@@ -7,6 +7,7 @@ Dask (Debian: python3-dask, and python3-distributed for several processes).
 
 from __future__ import annotations
 
+import errno
 import os
 from collections.abc import Iterable, Sequence
 from contextlib import suppress
@@ -170,6 +171,9 @@ def _names_in(folder: Path, count: int) -> list[str]:
     except OSError as problem:
         raise file_error(str(folder), f"cannot be made: {reason(problem)}", problem) from None
     names = [str(folder / f"part-{number:05d}.npy") for number in range(count)]
+    for name in names:
+        if os.path.isdir(name):
+            raise file_error(name, "cannot be written: Is a directory", IsADirectoryError(errno.EISDIR, "Is a directory"))
     others = sorted({str(path) for path in folder.glob("part-*.npy")} - set(names))
     if others:
         raise file_error(others[0], f"is of another result, with more parts than the {count} of this one: remove it")
@@ -300,8 +304,9 @@ def overlaps(
     output : path of a folder
         Write the pairs there, as part-00000.npy and so on, and return their number. Parts of a result with more parts
         must not be there. The parts get their names when all are written: a failure before leaves those of an earlier
-        result. What workers that were killed had begun to write is removed at the end; if this process itself is
-        killed, files that end in .part may stay, which nothing reads.
+        result, beside which they take room until then. What workers that were killed had begun to write is removed at
+        the end; where others still write after a failure, or this process itself is killed, files that end in .part may
+        stay, which nothing reads.
     distance, region
         As in `allpairs.overlaps`.
     margin, group, category, mask : number, dask array or array_like of shape (n,), path, or list of paths

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "Bindings.h"
@@ -32,7 +33,7 @@ class DistributedSearch {
                                            .second = given.filter.second,
                                            .executor = m_executor.get(),
                                            .maxPairs = given.maxPairs};
-    m_search = std::make_unique<mpi::DistributedOverlaps>(MPI_Comm_f2c(handle), settings);
+    m_search.emplace(MPI_Comm_f2c(handle), settings);
   }
 
   [[nodiscard]] std::unique_ptr<IdPairArray> find(const Boxes& first, const Boxes* second) {
@@ -47,7 +48,7 @@ class DistributedSearch {
 
  private:
   std::unique_ptr<Executor> m_executor;
-  std::unique_ptr<mpi::DistributedOverlaps> m_search;
+  std::optional<mpi::DistributedOverlaps> m_search;
 };
 
 std::string mpiVersion() {

@@ -21,7 +21,7 @@ class Checksum {
   [[nodiscard]] std::uint64_t value() const { return XXH64_digest(&m_state); }
 
  private:
-  XXH64_state_t m_state;
+  XXH64_state_t m_state{};
 };
 
 /// That of a text.

@@ -99,7 +99,8 @@ JoinSummary DiskJoin::run(const ResultSink* sink) {
     }
     if (sink != nullptr && m_options.commit) m_options.commit();
   } catch (...) {
-    if (!fs::exists(file("manifest"))) clearFolder();  // there is nothing to go on with
+    std::error_code unknown;
+    if (!fs::exists(file("manifest"), unknown) && !unknown) clearFolder();  // there is nothing to go on with
     throw;
   }
   clearFolder();
@@ -196,7 +197,8 @@ void DiskJoin::dropDamaged() {
 }
 
 bool DiskJoin::hasAllBoxes() {
-  if (!fs::exists(file("boxes"))) return false;
+  std::error_code ignored;  // then it cannot be opened
+  if (!fs::exists(file("boxes"), ignored) && !ignored) return false;
   m_spill.emplace(file("boxes"), recordType(), m_manifest.extents);
   for (std::size_t cell = 0; cell < m_manifest.extents.size(); ++cell) {
     report("checking", cell, m_manifest.extents.size());
@@ -207,7 +209,8 @@ bool DiskJoin::hasAllBoxes() {
 
 /// Forgets cells of whose pairs not all are there. New runs go behind those that stay.
 void DiskJoin::dropDamagedCells() {
-  if (!fs::exists(file("pairs"))) {
+  std::error_code ignored;  // then it cannot be opened
+  if (!fs::exists(file("pairs"), ignored) && !ignored) {
     m_manifest.cells.clear();
     return;
   }
@@ -218,7 +221,7 @@ void DiskJoin::dropDamagedCells() {
   std::size_t checked = 0;
   const std::size_t all = m_manifest.cells.size();
   std::erase_if(m_manifest.cells, [&](const auto& cell) {
-    report("checking", checked++, all);
+    report("checking pairs", checked++, all);
     const std::vector<Run>& runs = cell.second.runs;
     return !std::all_of(runs.begin(), runs.end(), isIntact);
   });
@@ -360,7 +363,6 @@ void DiskJoin::writePairs(ResultSink sink) {
   const std::uint64_t seconds = m_input.size(m_input.sets() - 1);
   PairMerge<Id> merge(m_ranges, seconds, m_budget.mergeBytes, m_runs.file, file("divided"), m_options.stop);
   merge.merge(runs, [&](std::span<const StoredPair<Id>> batch) {
-    checkStop(m_options.stop);
     sink({reinterpret_cast<const char*>(batch.data()), batch.size_bytes()});
     written += batch.size();
     report("writing", written, pairs);

@@ -165,8 +165,8 @@ std::uint64_t Divider::estimatePairs(const Division& division) const {
   };
   if (pairs.others + pairs.ofOneNumber == 0) return 0;
   const double share = shareOf(0, 0) * (isOneSet ? shareOf(0, 1) : shareOf(1, 0));
-  return static_cast<std::uint64_t>(static_cast<double>(pairs.others) * share +
-                                    static_cast<double>(pairs.ofOneNumber) * shareOf(0, 0));
+  const double all = static_cast<double>(pairs.others) * share + static_cast<double>(pairs.ofOneNumber) * shareOf(0, 0);
+  return static_cast<std::uint64_t>(std::min(all, 0x1p63));  // of billions of boxes in one place there are more
 }
 
 Divider::SamplePairs Divider::pairsOf(std::span<const BoxSample> parts,

@@ -34,7 +34,7 @@ struct Division {
   [[nodiscard]] std::uint64_t records() const;
   [[nodiscard]] std::uint64_t copies() const;
 
-  /// What its pairs take, as far as a file can be: an estimate may be beyond all numbers.
+  /// What its pairs take, as far as a file can be.
   [[nodiscard]] std::uint64_t pairBytes(std::size_t pairSize) const {
     constexpr std::uint64_t kMost = std::uint64_t{1} << 60;
     return pairs < kMost / pairSize ? pairs * pairSize : kMost;

@@ -43,10 +43,10 @@ class PartFile {
  public:
   /// Bad input: a place that is taken by what is no file, such as a device, or where nothing can be written, throws
   ///            FileError.
-  PartFile(const fs::path& target, const fs::path& work) : m_target(scene::resolvedTarget(target)) {
+  PartFile(const fs::path& target, const fs::path& work) : m_given(target), m_target(scene::resolvedTarget(target)) {
     constexpr std::size_t kMostOfName = 200;  // of 255
     const fs::path folder = m_target.has_parent_path() ? m_target.parent_path() : fs::path(".");
-    if (::access(folder.c_str(), W_OK | X_OK) != 0) fail("written", {errno, std::generic_category()});
+    if (::access((folder / "").c_str(), W_OK | X_OK) != 0) fail("written", {errno, std::generic_category()});
     m_part = folder / (m_target.filename().string().substr(0, kMostOfName) + '.' + numberOf(work) + ".part");
     std::error_code problem;
     const fs::file_status there = fs::status(m_target, problem);
@@ -79,6 +79,7 @@ class PartFile {
     if (!problem) fs::rename(m_part, m_target, problem);
     if (problem) fail("replaced", problem);
     m_isThere = false;
+    scene::syncNameOf(m_target);
   }
 
  private:
@@ -94,14 +95,15 @@ class PartFile {
     try {
       use();
     } catch (const FileError& problem) {
-      throw FileError(m_target, problem.problem(), problem.code());
+      throw FileError(m_given, problem.problem(), problem.code());
     }
   }
 
   [[noreturn]] void fail(const char* action, std::error_code problem) const {
-    throw FileError::ofSystem(m_target, std::string("cannot be ") + action, problem);
+    throw FileError::ofSystem(m_given, std::string("cannot be ") + action, problem);
   }
 
+  fs::path m_given;
   fs::path m_target;
   fs::path m_part;
   std::optional<fs::perms> m_mode;  ///< Of the file that is replaced.

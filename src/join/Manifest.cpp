@@ -184,9 +184,12 @@ void Manifest::check() const {
 }
 
 std::optional<Manifest> Manifest::read(const fs::path& path) {
-  if (!fs::exists(path)) return std::nullopt;
+  std::error_code unknown;
+  if (!fs::exists(path, unknown)) return std::nullopt;
   const WorkFile file(path, WorkFile::Mode::Open);
-  std::string text(static_cast<std::size_t>(fs::file_size(path)), '\0');
+  const std::uintmax_t size = fs::file_size(path, unknown);
+  if (unknown) throw FileError::ofSystem(path, "cannot be read", unknown);
+  std::string text(static_cast<std::size_t>(size), '\0');
   file.read(0, text.data(), text.size());
   const std::size_t end = text.rfind("checksum ");
   const std::string_view content = std::string_view(text).substr(0, end == std::string::npos ? 0 : end);

@@ -12,8 +12,7 @@
 namespace allpairs::join {
 namespace {
 
-constexpr std::size_t kBatch = std::size_t{1} << 16;                // pairs that are read, counted or handed on at once
-constexpr std::size_t kRowsAtOnce = 4096;                           // sorted before a stop is looked for
+constexpr std::size_t kBatch = std::size_t{1} << 16;                // pairs between two looks for a stop
 constexpr std::size_t kParts = std::size_t{1} << 8;                 // of a range that is divided
 constexpr const char* kOtherRanges = "is damaged: a run's ranges";  // from one reading to the next, also
 
@@ -167,8 +166,12 @@ void PairMerge<Id>::giveRows(std::uint64_t firstKey, std::uint64_t endKey, Recei
     for (const auto& pair : pairs) m_seconds[m_begins[static_cast<std::size_t>(pair.first - firstKey)]++] = pair.second;
   });
   std::size_t begin = 0;  // each begin has become the end of its row
+  std::size_t next = 0;
   for (std::size_t row = 0; row < rows; ++row) {
-    if (row % kRowsAtOnce == 0) checkStop(m_stop);
+    if (begin >= next) {
+      checkStop(m_stop);
+      next = begin + kBatch;
+    }
     const auto end = static_cast<std::size_t>(m_begins[row]);
     std::sort(m_seconds.begin() + static_cast<std::ptrdiff_t>(begin),
               m_seconds.begin() + static_cast<std::ptrdiff_t>(end));

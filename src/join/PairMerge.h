@@ -20,7 +20,8 @@ class PairMerge {
   using Receiver = FunctionRef<void(std::span<const StoredPair<Id>>)>;
 
   /// `file` has the runs; `boxes` is one more than the greatest number of a second box. A range that is too large by
-  /// itself is divided again, by way of `scratch`. `stop` ends a merge soon, if it is given.
+  /// itself is divided again, by way of `scratch`. `stop` ends a merge, if it is given: soon, but
+  /// for the partners of one box, which are sorted together.
   PairMerge(const KeyRanges& ranges, std::uint64_t boxes, std::size_t memory, const WorkFile& file,
             std::filesystem::path scratch, const StopFlag* stop = nullptr);
 

@@ -421,7 +421,7 @@ def test_a_failure_leaves_the_whole_result_of_before(tmp_path, monkeypatch):
         save(file, array)
 
     monkeypatch.setattr(np, "save", fail_for_the_last)
-    with dask.config.set(scheduler="threads"):  # of this process
+    with dask.config.set(scheduler="synchronous"):  # of this process
         with pytest.raises(allpairs.FileError, match="part-00002.npy: cannot be written: No space left"):
             allpairs.dask.overlaps(dask.array.from_array(boxes, chunks=(1000, 6)), folder, distance=9.0)
     assert {path.name: path.read_bytes() for path in folder.iterdir()} == before

@@ -177,8 +177,9 @@ def test_margins_are_added_in_the_order_of_ids():
     rows = np.hstack([lower, upper])[order]
     assert allpairs.overlaps_in_cell(rows, None, order, space, **own).tolist() == found.tolist()
     assert len(allpairs.overlaps(rows, **own)) > len(expected)  # so that the order decides
-    large = [2**63 + int(number) for number in order]  # in a list, of which NumPy would make floats
-    assert (allpairs.overlaps_in_cell(rows, None, large, space, **own) - np.uint64(2**63)).tolist() == found.tolist()
+    least = 2**63 - 200
+    large = [least + int(number) for number in order]  # in a list, of which NumPy makes floats
+    assert (allpairs.overlaps_in_cell(rows, None, large, space, **own) - np.uint64(least)).tolist() == found.tolist()
 
 
 def test_a_join_of_files_is_the_search_in_memory(tmp_path):

@@ -262,7 +262,8 @@ std::vector<std::uint32_t> Distribution::dealByWork() const {
     work[cell] = kPairWork * work[cell] + static_cast<double>(m_counts[cell]);
     if (m_counts[cell] > 1) cells.push_back(cell);  // one box makes no pair
   }
-  std::stable_sort(cells.begin(), cells.end(), [&work](auto a, auto b) { return work[a] > work[b]; });
+  const auto hasMore = [&work](auto a, auto b) { return work[a] != work[b] ? work[a] > work[b] : a < b; };
+  std::sort(cells.begin(), cells.end(), hasMore);
   using Load = std::pair<double, std::size_t>;
   std::priority_queue<Load, std::vector<Load>, std::greater<>> least;
   for (std::size_t rank = 0; rank < ranks; ++rank) least.emplace(0.0, rank);

@@ -119,7 +119,8 @@ JoinSummary joinFiles(Span<const std::filesystem::path> inputs, ResultSink sink,
 /// options.output are not used. Killed meanwhile it leaves a file of that name, a number and ".part", which a join that
 /// is resumed removes. The default work folder is `output` with ".work" behind it. Where `output` is a link its target
 /// is replaced; permissions stay. One that is there and is no file, is one of the inputs, or cannot be written throws
-/// FileError before anything is read. It is on the disk before it has its name and the work folder goes.
+/// FileError before anything is read. The result is on the disk before it gets its name, and has it before the work
+/// folder goes.
 JoinSummary joinFiles(Span<const std::filesystem::path> inputs, const std::filesystem::path& output,
                       const JoinOptions& options = {});
 
@@ -132,7 +133,7 @@ struct RanksPlan {
   std::uint64_t pairs = 0;  ///< Estimated from a sample.
   std::uint64_t cells = 0;
   std::uint64_t copies = 0;
-  std::uint64_t wideBoxes = 0;  ///< Boxes in too many cells: each is sent to all ranks.
+  std::uint64_t wideBoxes = 0;  ///< Sent to all ranks: in too many cells, or where no cut divides too many.
   std::uint64_t boxBytes = 0;   ///< Sent between ranks, by all of them together, where boxes lie in no order of space.
   std::uint64_t pairBytes = 0;  ///< Likewise.
   std::uint64_t secondBoxes = 0;             ///< How many of the boxes are those of the second set.

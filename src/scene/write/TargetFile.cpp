@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "allpairs/scene/TargetFile.h"
 
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <exception>
 #include <new>
 #include <system_error>
 
@@ -15,7 +19,9 @@ fs::path resolvedTarget(const fs::path& path) {
   std::error_code problem;
   fs::path target = path;
   for (int i = 0; i < kMostLinks && fs::is_symlink(fs::symlink_status(target, problem)); ++i) {
-    target = target.parent_path() / fs::read_symlink(target);
+    const fs::path next = fs::read_symlink(target, problem);
+    if (problem) throw FileError::ofSystem(path, "cannot be followed", problem);
+    target = target.parent_path() / next;
   }
   target = fs::weakly_canonical(target, problem);
   if (problem == std::errc::not_enough_memory) throw std::bad_alloc();  // it may be a link all the same
@@ -23,6 +29,18 @@ fs::path resolvedTarget(const fs::path& path) {
     throw FileError(path, "is a link that leads nowhere", problem);
   }
   return target.empty() ? path : target;
+}
+
+void syncNameOf(const fs::path& file) noexcept {
+  try {
+    const fs::path folder = resolvedTarget(file).parent_path();
+    const int descriptor = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (descriptor < 0) return;
+    ::fsync(descriptor);
+    ::close(descriptor);
+  } catch (const std::exception&) {  // the file has its name, which may be lost with the power
+    return;
+  }
 }
 
 void checkIsNoInput(const fs::path& output, Span<const fs::path> inputs) {
