@@ -16,7 +16,7 @@ namespace {
 
 /// The shortest text that reads as the same number.
 std::string textOf(double number) {
-  std::array<char, 32> text;
+  std::array<char, 32> text{};
   return {text.data(), std::to_chars(text.data(), text.data() + text.size(), number).ptr};
 }
 

@@ -82,9 +82,9 @@ struct Cell {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   const double asFirst = (distance + margin) + maxMargin;
   const double asSecond = (distance + maxMargin) + margin;
-  const double greater = asFirst < asSecond ? asSecond : asFirst;
+  double widening = asFirst < asSecond ? asSecond : asFirst;
   // A NaN is the sum of infinities, of which a lesser margin than the greatest may make any number.
-  const double widening = asFirst != asFirst || asSecond != asSecond ? kInfinity : greater;
+  if (asFirst != asFirst || asSecond != asSecond) widening = kInfinity;
   Box reach = box;
   for (double& max : reach.max) {
     // To infinity also from -infinity, where the sum would be NaN.
