@@ -15,12 +15,6 @@ void warn(const std::string& text, const char* program) {
   fmt::print(stderr, "{}: warning: {}\n", program, printable(text));
 }
 
-std::string emptyReason(const scene::EmptyBoxes& boxes) {
-  std::string reason = fmt::format("min above max on {}", "xyz"[boxes.axis]);
-  if (boxes.count > 1) reason += " (and " + counted(boxes.count - 1, "other box", "other boxes") + ")";
-  return reason + ": empty, in no pair";
-}
-
 std::vector<std::string> emptyTexts(const BoxSetArguments& sets, const std::array<scene::EmptyBoxes, 2>& empty) {
   std::vector<std::string> texts;
   for (std::size_t set = 0; set < empty.size(); ++set) {

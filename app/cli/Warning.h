@@ -13,9 +13,6 @@ namespace allpairs::app {
 /// Says on standard error, in a line that names the program, where the result may not be what is expected.
 void warn(const std::string& text, const char* program = "allpairs");
 
-/// Why boxes, of which there are some, are in no pair: what is wrong with the first, and how many others there are.
-[[nodiscard]] std::string emptyReason(const scene::EmptyBoxes& boxes);
-
 /// What to say of boxes of one or two sets that are empty; of a set of one file with its name.
 [[nodiscard]] std::vector<std::string> emptyTexts(const BoxSetArguments& sets,
                                                   const std::array<scene::EmptyBoxes, 2>& empty);

@@ -49,18 +49,6 @@ scene::ReadOptions readOptions(const InputSettings& settings, ProgressLine& line
   return options;
 }
 
-/// Adds what to say of a file's boxes with min above max, if there are any: which one is the first, of a name that
-/// `nameOf` gives, and how many others.
-template <class NameOf>
-void remarkOnEmpty(const scene::EmptyBoxes& empty, const std::filesystem::path& file, const NameOf& nameOf,
-                   std::vector<scene::Remark>& remarks) {
-  if (empty.count == 0) return;
-  const std::string number = std::to_string(empty.first);
-  const std::string name = nameOf(static_cast<std::size_t>(empty.first));
-  const std::string subject = "box " + number + (name == number ? "" : " '" + name + "'");
-  remarks.push_back({.file = file, .subject = subject, .reason = emptyReason(empty)});
-}
-
 BoxInput readBoxArrays(const InputSettings& settings, const scene::ReadOptions& options) {
   BoxInput input;
   std::vector<scene::BoxArray> arrays;
@@ -69,8 +57,9 @@ BoxInput readBoxArrays(const InputSettings& settings, const scene::ReadOptions& 
     const scene::BoxArray& boxes = arrays.back();
     scene::EmptyBoxes empty;
     empty.look(boxes.boxes(), 0);
-    const auto nameOf = [&boxes](std::size_t i) { return boxes.name(i); };
-    remarkOnEmpty(empty, shownPath(settings, path), nameOf, input.warnings);
+    if (empty.count != 0)
+      input.warnings.push_back(
+          scene::emptyRemark(empty, shownPath(settings, path), boxes.name(static_cast<std::size_t>(empty.first))));
     const auto group = static_cast<std::uint32_t>(arrays.size());
     if (settings.betweenInputs) input.groups.insert(input.groups.end(), boxes.size(), group);
   }
@@ -96,8 +85,9 @@ scene::Scene readScene(const InputSettings& settings, std::size_t input, const s
   if (scene::isBoxArrayFile(path)) {
     scene::EmptyBoxes empty;
     for (std::size_t i = 0; i < scene.models.size(); ++i) empty.look(boxAsRead(*scene.models[i]), i);
-    const auto nameOf = [&scene](std::size_t i) { return scene.models[i]->getName(); };
-    remarkOnEmpty(empty, path, nameOf, scene.warnings);
+    if (empty.count != 0)
+      scene.warnings.push_back(
+          scene::emptyRemark(empty, path, scene.models[static_cast<std::size_t>(empty.first)]->getName()));
   }
   for (const auto& model : scene.models) {
     if (settings.betweenInputs) model->addGroup(static_cast<int>(input) + 1);

@@ -60,7 +60,8 @@ class Scene:
     remarks : list of Remark
         The parts of the input that were skipped.
     warnings : list of Remark
-        Where the result may not be what is expected, though no part was skipped: a scene without a collision pipeline.
+        Where the result may not be what is expected, though no part was skipped: a scene without a collision pipeline,
+        boxes with min above max.
     """
 
     def __init__(self, core: _files.Scene) -> None:
@@ -147,6 +148,15 @@ class Detection(NamedTuple):
         return [(names[first], names[second]) for first, second in self.pairs.tolist()]
 
 
+def _search_roots_of(search_roots: Iterable[Path]) -> list[str]:
+    """Folders, all of which exist."""
+    roots = _arguments.paths_of("search_roots", search_roots)
+    for root in roots:
+        if not os.path.isdir(root):
+            raise FileError(f"{root}: is not a folder; search_roots takes folders", root, 0, 0)
+    return roots
+
+
 def load(
     path: Path,
     *,
@@ -187,7 +197,7 @@ def load(
     from . import _reading
 
     options = _reading.ReadOptions()
-    options.search_roots = _arguments.paths_of("search_roots", search_roots)
+    options.search_roots = _search_roots_of(search_roots)
     if sofa != "":
         options.sofa = _reading.sofa_version(_arguments.text_of("sofa", sofa))
     options.max_memory = _arguments.whole("max_memory", max_memory)

@@ -12,6 +12,7 @@
 #include "allpairs/StopFlag.h"
 #include "allpairs/collision/BruteForceBroadPhase.h"
 #include "allpairs/collision/CollisionPipeline.h"
+#include "allpairs/scene/EmptyBoxes.h"
 #include "allpairs/scene/ReadInput.h"
 
 namespace allpairs::python {
@@ -40,7 +41,15 @@ Table columnsOf(const BoxView::Corners<T>& corners, std::size_t size) {
   return table;
 }
 
+/// A region of boxes is one as that of models is: the broad phase says what is wrong with it.
+void checkRegion(const Box& region) {
+  collision::BruteForceBroadPhase broadPhase;
+  broadPhase.setBox(region);
+  broadPhase.init();
+}
+
 std::vector<Pair> detectBoxes(const BoxView& boxes, const DetectionOptions& options, const StopFlag& stop) {
+  if (options.region) checkRegion(*options.region);
   const std::unique_ptr<Executor> executor = executorOf(options.threads);
   OverlapOptions engine;
   engine.strategy = options.strategy;
@@ -111,6 +120,9 @@ LoadedScene::LoadedScene(const std::filesystem::path& path, const scene::ReadOpt
   std::error_code ignored;
   if (scene::isBoxArrayFile(path) && !std::filesystem::is_directory(path, ignored)) {
     m_boxArray.emplace(scene::readBoxArray(path, options));
+    scene::EmptyBoxes empty;
+    empty.look(m_boxArray->boxes(), 0);
+    if (empty.count != 0) m_scene.warnings.push_back(scene::emptyRemark(empty, path, m_boxArray->name(empty.first)));
   } else {
     m_scene = withRootBoxes(scene::readInput(path, options));
     for (const auto& model : m_scene.models) append(m_rootBoxes, scene::modelRecord(*model).box);

@@ -46,6 +46,36 @@ def test_a_distance_and_a_region_hold_for_one_detection():
     np.testing.assert_array_equal(scene.detect(), before)
 
 
+@pytest.mark.parametrize("region", [[0, 0, 0, 0, 1, 1], [[2, 0, 0], [1, 1, 1]], [0, 0, 0, 1, 1, np.nan]])
+def test_a_region_has_min_below_max_whatever_the_file_holds(tmp_path, region):
+    np.save(tmp_path / "boxes.npy", np.array([[0.0, 0, 0, 1, 1, 1]]))
+    messages = set()
+    for path in (SCENE, tmp_path / "boxes.npy"):
+        with pytest.raises(allpairs.InvalidArgument, match="the region box does not have min < max on the .") as raised:
+            allpairs.load(path).detect(region=region)
+        messages.add(str(raised.value))
+    assert len(messages) == 1
+
+
+def test_boxes_with_min_above_max_are_warned_of(tmp_path):
+    (tmp_path / "boxes.csv").write_text("a,0,0,0,1,1,1\nb,0,2,0,1,1,1\n3,0,2,0,1,1,1\nd,inf,0,0,-inf,1,1\n")
+    warning = allpairs.Remark(
+        str(tmp_path / "boxes.csv"), 0, "box 1 'b'", "min above max on y (and 1 other box): empty, in no pair", False
+    )
+    scene = allpairs.load(tmp_path / "boxes.csv")
+    assert (scene.warnings, scene.remarks) == ([warning], [])
+    np.save(tmp_path / "boxes.npy", np.array([[0.0, 0, 0, 1, 1, 1]]))
+    assert allpairs.load(tmp_path / "boxes.npy").warnings == []
+
+
+def test_search_roots_are_folders(tmp_path):
+    for root in (tmp_path / "none", SCENE):
+        with pytest.raises(allpairs.FileError, match="is not a folder; search_roots takes folders") as raised:
+            allpairs.load(SCENE, search_roots=[tmp_path, root])
+        assert raised.value.filename == str(root)
+    assert len(allpairs.load(SCENE, search_roots=tmp_path)) > 0
+
+
 @pytest.mark.parametrize("dtype", [np.float32, np.float64])
 @pytest.mark.parametrize("order", ["C", "F"])
 def test_a_file_of_boxes_is_its_array(tmp_path, dtype, order):

@@ -4,11 +4,15 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
+#include <string>
 
 #include "allpairs/Box.h"
 #include "allpairs/BoxView.h"
 
 namespace allpairs::scene {
+
+struct Remark;
 
 /// Counts boxes of which a minimum is above its maximum and both are finite, as after a mistake: they are empty, and in
 /// no pair. A box with an infinite bound is meant as it is.
@@ -35,5 +39,11 @@ struct EmptyBoxes {
     for (std::size_t i = 0; i < boxes.size(); ++i) look(boxes[i], begin + i);
   }
 };
+
+/// Why such boxes, of which there are some, are in no pair: what is wrong with the first, and how many others there are.
+[[nodiscard]] std::string emptyReason(const EmptyBoxes& boxes);
+
+/// The warning of a file that has some; `name` is that of the first.
+[[nodiscard]] Remark emptyRemark(const EmptyBoxes& boxes, const std::filesystem::path& file, const std::string& name);
 
 }  // namespace allpairs::scene
