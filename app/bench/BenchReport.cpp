@@ -5,30 +5,20 @@
 
 #include <string_view>
 
+#include "JsonText.h"
 #include "cli/Text.h"
 
 namespace allpairs::app {
 namespace {
 
-/// A text in JSON's quotes. Ours hold no control characters but those that a file's name may bring.
-std::string jsonQuoted(std::string_view text) {
-  std::string result = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') result += '\\';
-    if (static_cast<unsigned char>(c) < 0x20) {
-      result += fmt::format("\\u{:04x}", static_cast<unsigned>(static_cast<unsigned char>(c)));
-    } else {
-      result += c;
-    }
-  }
-  return result + '"';
-}
+using view::JsonText;
 
-std::string timesJson(std::string_view prefix, const measure::Summary& times) {
-  return fmt::format(
-      "  \"{0}median_ms\": {1:.6g},\n  \"{0}median_cpu_ms\": {2:.6g},\n  \"{0}min_ms\": {3:.6g},\n"
-      "  \"{0}max_ms\": {4:.6g},\n  \"{0}repetitions\": {5},\n",
-      prefix, times.medianMs, times.medianCpuMs, times.minMs, times.maxMs, times.repetitions);
+void addTimes(const std::string& prefix, const measure::Summary& times, JsonText& json) {
+  json.add(prefix + "median_ms", times.medianMs);
+  json.add(prefix + "median_cpu_ms", times.medianCpuMs);
+  json.add(prefix + "min_ms", times.minMs);
+  json.add(prefix + "max_ms", times.maxMs);
+  json.add(prefix + "repetitions", times.repetitions);
 }
 
 std::string timesLine(std::string_view name, const measure::Summary& times) {
@@ -37,10 +27,12 @@ std::string timesLine(std::string_view name, const measure::Summary& times) {
                      counted(times.repetitions, "repetition"));
 }
 
-std::string provenanceJson(const measure::Provenance& p) {
-  return fmt::format("  \"commit\": {},\n  \"compiler\": {},\n  \"build\": {},\n  \"processor\": {},\n  \"date\": {}\n",
-                     jsonQuoted(p.commit), jsonQuoted(p.compiler), jsonQuoted(p.buildType), jsonQuoted(p.processor),
-                     jsonQuoted(p.date));
+void addProvenance(const measure::Provenance& provenance, JsonText& json) {
+  json.add("commit", provenance.commit);
+  json.add("compiler", provenance.compiler);
+  json.add("build", provenance.buildType);
+  json.add("processor", provenance.processor);
+  json.add("date", provenance.date);
 }
 
 }  // namespace
@@ -57,14 +49,23 @@ std::string benchTable(const BenchRecord& r) {
 }
 
 std::string benchJson(const BenchRecord& r) {
-  std::string text =
-      fmt::format("{{\n  \"input\": {},\n  \"n\": {},\n  \"pairs\": {},\n", jsonQuoted(r.input), r.boxes, r.pairs);
-  if (!r.hash.empty()) text += fmt::format("  \"hash\": {},\n", jsonQuoted(r.hash));
-  text += fmt::format("  \"box_tests\": {},\n  \"group_tests\": {},\n", r.work.boxTests, r.work.groupTests);
-  text += timesJson("", r.oneShot) + timesJson("warm_", r.warm);
-  text += fmt::format("  \"order\": {},\n  \"strategy\": {},\n  \"threads\": {},\n  \"instruction_set\": {},\n",
-                      jsonQuoted(r.order), jsonQuoted(r.strategy), r.threads, jsonQuoted(r.instructionSet));
-  return text + provenanceJson(r.provenance) + "}\n";
+  JsonText json(JsonText::Layout::Indented);
+  json.beginObject();
+  json.add("input", r.input);
+  json.add("n", r.boxes);
+  json.add("pairs", r.pairs);
+  if (!r.hash.empty()) json.add("hash", r.hash);
+  json.add("box_tests", r.work.boxTests);
+  json.add("group_tests", r.work.groupTests);
+  addTimes("", r.oneShot, json);
+  addTimes("warm_", r.warm, json);
+  json.add("order", r.order);
+  json.add("strategy", r.strategy);
+  json.add("threads", r.threads);
+  json.add("instruction_set", r.instructionSet);
+  addProvenance(r.provenance, json);
+  json.endObject();
+  return json.text() + '\n';
 }
 
 }  // namespace allpairs::app

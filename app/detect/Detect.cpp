@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include <fmt/format.h>
 #include <unistd.h>
+
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
-#include <algorithm>
 #include <initializer_list>
 #include <memory>
 #include <optional>
@@ -14,7 +13,6 @@
 #include <vector>
 
 #include "Commands.h"
-#include "allpairs/scene/FileError.h"
 #include "allpairs/scene/ReadInput.h"
 #include "cli/Arguments.h"
 #include "cli/ExitStatus.h"
@@ -32,7 +30,6 @@
 #include "detect/SearchArguments.h"
 #include "detect/Why.h"
 #include "input/Inputs.h"
-#include "input/SpooledInputs.h"
 
 namespace allpairs::app {
 namespace {
@@ -105,6 +102,7 @@ struct Outcome {
   scene::ResultView result{};
   TableNotes notes{};
   std::optional<ExactReport> exact{};
+  BoxPairOrder order = BoxPairOrder::NewestFirst;  ///< Of the pairs that are written as .npy.
 };
 
 void writeExact(const Outcome& outcome, const std::string& format, Output& output) {
@@ -116,7 +114,7 @@ void writeExact(const Outcome& outcome, const std::string& format, Output& outpu
   } else if (format == "csv") {
     writeExactCsv(result, exact, sink);
   } else if (format == "npy") {
-    writeExactNpy(result, exact, sink);
+    writeExactNpy(result, exact, outcome.order, sink);
   } else {
     writeExactTable(result, exact, outcome.notes, sink);
   }
@@ -150,26 +148,8 @@ Outcome detect(const BoxInput& input, const DetectSettings& settings, DetectionO
   return outcome;
 }
 
-/// Says on standard error that the result is not of the whole input.
-void warnOfPart(const scene::Scene& scene, const InputSettings& input) {
-  const auto count = std::count_if(scene.remarks.begin(), scene.remarks.end(),
-                                   [](const scene::Remark& remark) { return remark.isPartial; });
-  if (count == 0) return;
-  if (scene.models.empty()) {
-    throw FileError(input.paths.front(),
-                    "no model of it can be placed or read, and nothing is left: 'allpairs info "
-                    "--partial' lists why");
-  }
-  std::vector<std::string> words;
-  for (const std::string& path : input.paths) words.push_back(shellWord(path));
-  const std::string paths = fmt::format("{}", fmt::join(words, " "));
-  const std::string inputs = printable(input.spooled == nullptr ? paths : input.spooled->shownIn(paths));
-  fmt::print(stderr, "allpairs: warning: {}: {} left out; 'allpairs info --partial {}' lists {}\n", inputs,
-             counted(static_cast<std::uint64_t>(count), "model"), inputs, count == 1 ? "it" : "them");
-}
-
 Outcome detect(scene::Scene& scene, const DetectSettings& settings, const DetectionOptions& options) {
-  warnOfPart(scene, settings.input);
+  warnOfPart(settings.input, scene);
   Outcome outcome{.detection = withClock(scene.models.size(), [&] { return detectScene(scene, options); })};
   if (settings.exact)
     outcome.exact =
@@ -234,9 +214,11 @@ void runDetect(const DetectSettings& settings, const DetectionOptions& options) 
   if (settings.exact) requireExact();
   const Timer timer;
   Inputs inputs = readInputs(settings.input);
+  const bool areBoxes = std::holds_alternative<BoxInput>(inputs);
   if (settings.exact) makeScene(inputs);
   const double readSeconds = timer.seconds();
   Outcome outcome = std::visit([&](auto& input) { return detect(input, settings, options); }, inputs);
+  if (areBoxes) outcome.order = BoxPairOrder::FirstBelowSecond;
   outcome.result.pairs = outcome.detection.pairs;
   outcome.result.pipelines = outcome.detection.pipelines;
   outcome.result.swapped = outcome.detection.swapped;
@@ -257,7 +239,8 @@ void runDetect(const DetectSettings& settings, const DetectionOptions& options) 
   const bool isFound = settings.failOn == "clash"  ? countStates(outcome.exact->pairs).clashes() != 0
                        : settings.failOn == "pair" ? !outcome.result.pairs.empty()
                                                    : false;
-  if (isFound) throw Found(summaryOf(outcome));
+  if (isFound)
+    throw Found(settings.failOn == "pair" ? counted(outcome.result.pairs.size(), "pair") : summaryOf(outcome));
 }
 
 }  // namespace

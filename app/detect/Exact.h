@@ -10,6 +10,7 @@
 #include "allpairs/scene/Scene.h"
 #include "allpairs/scene/WriteResult.h"
 #include "cli/Table.h"
+#include "detect/Detection.h"
 
 namespace allpairs::app {
 
@@ -43,8 +44,9 @@ void writeExactTable(const scene::ResultView& result, const ExactReport& report,
 /// A line for each candidate, with its state, distance, depth, points, normal and number of contacts.
 void writeExactCsv(const scene::ResultView& result, const ExactReport& report, scene::ByteSink sink);
 
-/// The candidates that are not known to be apart.
-void writeExactNpy(const scene::ResultView& result, const ExactReport& report, scene::ByteSink sink);
+/// The candidates that are not known to be apart, of which each result has the newest model first, in this order.
+void writeExactNpy(const scene::ResultView& result, const ExactReport& report, BoxPairOrder order,
+                   scene::ByteSink sink);
 
 /// The object of writeJson() with two more members: "exact", a list as long as "pairs", and "exactStatistics".
 void writeExactJson(const scene::ResultView& result, const ExactReport& report, scene::ByteSink sink);

@@ -188,10 +188,15 @@ void writeExactCsv(const scene::ResultView& result, const ExactReport& report, s
   }
 }
 
-void writeExactNpy(const scene::ResultView& result, const ExactReport& report, scene::ByteSink sink) {
+void writeExactNpy(const scene::ResultView& result, const ExactReport& report, BoxPairOrder order,
+                   scene::ByteSink sink) {
   std::vector<Pair> kept;
   for (std::size_t i = 0; i < report.pairs.size(); ++i) {
     if (report.pairs[i].state != ExactState::Apart) kept.push_back(result.pairs[i]);
+  }
+  if (order == BoxPairOrder::FirstBelowSecond) {
+    for (Pair& pair : kept) std::swap(pair.first, pair.second);
+    std::sort(kept.begin(), kept.end());
   }
   scene::ResultView found = result;
   found.pairs = kept;

@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <iterator>
+#include <limits>
 #include <system_error>
 
 #include "allpairs/collision/BruteForceBroadPhase.h"
@@ -123,12 +125,20 @@ std::string reasonOf(const Question& asked, const collision::PairVerdict& verdic
   return {};
 }
 
+/// How far `low` lies above `high`; of the same infinity it is near at any distance, as the search has it.
+double gapBetween(double high, double low) {
+  const double gap = low - high;
+  return std::isnan(gap) ? -std::numeric_limits<double>::infinity() : gap;
+}
+
 /// How far the boxes are apart; nothing where there is no gap to speak of.
 std::string gapLine(const Question& asked) {
   const Box a = asked.box(0);
   const Box b = asked.box(1);
   if (asked.isOfOne() || isEmpty(a) || isEmpty(b)) return {};
-  const auto gap = [&](std::size_t axis) { return std::max(b.min[axis] - a.max[axis], a.min[axis] - b.max[axis]); };
+  const auto gap = [&](std::size_t axis) {
+    return std::max(gapBetween(a.max[axis], b.min[axis]), gapBetween(b.max[axis], a.min[axis]));
+  };
   return fmt::format(
       "  gaps of the boxes: {} on x, {} on y, {} on z, below 0 where they overlap; a pair has at most {}\n", gap(0),
       gap(1), gap(2), asked.distance());

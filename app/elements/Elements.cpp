@@ -62,7 +62,7 @@ std::vector<MeshStep> readSteps(const InputSettings& input) {
   ProgressLine line;
   std::vector<MeshStep> steps;
   for (std::size_t i = 0; i < paths.size(); i += 2) {
-    line.show("reading: " + std::filesystem::path(paths[i]).filename().string());
+    line.show("reading: " + printable(std::filesystem::path(paths[i]).filename().string()));
     for (MeshStep& step : readMeshSteps(input, i)) steps.push_back(std::move(step));
   }
   return steps;
@@ -159,6 +159,7 @@ void checkElementsExtension(const std::string& path) {
 
 void runElements(const ElementSettings& settings) {
   checkElementsExtension(settings.output);
+  const std::string format = formatOf(settings.format, settings.output, kElementFormats);
   checkOutputs(settings.input);
   ElementReport report;
   report.distance = parseDistance(settings.distance);
@@ -183,8 +184,7 @@ void runElements(const ElementSettings& settings) {
   }
   ElementFiles files(settings.output, report);
   findAll(candidates, wantsLists, files, report);
-  output.write(formatOf(settings.format, settings.output, kElementFormats) == "json" ? jsonOf(report)
-                                                                                     : tableOf(report));
+  output.write(format == "json" ? jsonOf(report) : tableOf(report));
   files.complete();
   output.complete();
   files.commit();

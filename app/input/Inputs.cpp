@@ -179,7 +179,13 @@ std::string betweenText(const InputSettings& settings) {
   return settings.betweenInputs ? "; pairs of different inputs only" : "";
 }
 
-void checkOutputs(const InputSettings& settings) { checkOutputs(settings, pathsOf(settings.paths)); }
+void checkOutputs(const InputSettings& settings) {
+  for (const std::filesystem::path& output : settings.outputs) {
+    if (settings.spooled != nullptr && settings.spooled->isSource(output))
+      throw FileError(output, "is standard input; the output needs another name");
+  }
+  checkOutputs(settings, pathsOf(settings.paths));
+}
 
 void checkOutputs(const InputSettings& settings, const std::vector<std::filesystem::path>& inputs) {
   std::map<std::pair<dev_t, ino_t>, std::filesystem::path> outputs;
@@ -219,6 +225,23 @@ void warnOf(const InputSettings& settings, const std::vector<scene::Remark>& war
     warn(
         fmt::format("{}{}: {}{}", shownPath(settings, warning.file.string()).string(), place, subject, warning.reason));
   }
+}
+
+void warnOfPart(const InputSettings& settings, const scene::Scene& scene) {
+  const auto count = std::count_if(scene.remarks.begin(), scene.remarks.end(),
+                                   [](const scene::Remark& remark) { return remark.isPartial; });
+  if (count == 0) return;
+  if (scene.models.empty()) {
+    throw FileError(settings.paths.front(),
+                    "no model of it can be placed or read, and nothing is left: 'allpairs info "
+                    "--partial' lists why");
+  }
+  std::vector<std::string> words;
+  for (const std::string& path : settings.paths) words.push_back(shellWord(path));
+  const std::string paths = fmt::format("{}", fmt::join(words, " "));
+  const std::string inputs = printable(settings.spooled == nullptr ? paths : settings.spooled->shownIn(paths));
+  warn(fmt::format("{}: {} left out; 'allpairs info --partial {}' lists {}", inputs,
+                   counted(static_cast<std::uint64_t>(count), "model"), inputs, count == 1 ? "it" : "them"));
 }
 
 void warnOfEmpty(const InputSettings& settings, const scene::EmptyBoxes& boxes, std::size_t each, const char* part) {

@@ -61,6 +61,11 @@ void requireMemory(const InputSettings& settings, std::uint64_t bytes);
 /// Warns of what readers remarked.
 void warnOf(const InputSettings& settings, const std::vector<scene::Remark>& warnings);
 
+/// Warns that models were left out of a scene, so that a result is not of the whole input.
+///
+/// Bad input: where no model is left, throws FileError.
+void warnOfPart(const InputSettings& settings, const scene::Scene& scene);
+
 /// Warns of the boxes of the only input that are empty, if there are any: `each` of them in every frame or world, of
 /// which `part` is the word, and which are numbered through.
 void warnOfEmpty(const InputSettings& settings, const scene::EmptyBoxes& boxes, std::size_t each, const char* part);

@@ -114,6 +114,13 @@ std::string SpooledInputs::shownIn(std::string text) const {
   return text;
 }
 
+bool SpooledInputs::isSource(const fs::path& file) const {
+  struct stat status {};
+  if (::stat(file.c_str(), &status) != 0) return false;
+  const std::pair identity(status.st_dev, status.st_ino);
+  return std::any_of(m_files.begin(), m_files.end(), [&](const Spooled& one) { return one.source == identity; });
+}
+
 void SpooledInputs::spool(std::string& path, const std::string& format) {
   const bool isStandard = isStandardInput(path);
   const std::string extension = format.empty() ? fs::path(path).extension().string() : '.' + format;
@@ -125,12 +132,15 @@ void SpooledInputs::spool(std::string& path, const std::string& format) {
   const std::string stem = isStandard ? "stdin" : fs::path(pipe).stem().string();
   const fs::path folder = m_folder / std::to_string(m_files.size());  // so that pipes of any names have their own
   const fs::path file = folder / (stem + extension);
-  m_files.push_back({folder, file, shown});
+  m_files.push_back({folder, file, shown, std::nullopt});
   removeOnSignal(folder);
   removeOnSignal(file);
   if (::mkdir(folder.c_str(), 0700) != 0) throw FileError(folder, "cannot be created: " + lastProblem());
   const Descriptor source(isStandard ? STDIN_FILENO : ::open(path.c_str(), O_RDONLY | O_CLOEXEC));
   if (source.number() < 0) throw FileError(path, "cannot be opened: " + lastProblem());
+  struct stat status {};
+  if (::fstat(source.number(), &status) == 0 && S_ISREG(status.st_mode))
+    m_files.back().source = std::pair(status.st_dev, status.st_ino);
   const Descriptor target(::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600));
   if (target.number() < 0) throw FileError(file, "cannot be created: " + lastProblem());
   copyAll(source.number(), shown, target.number(), file);

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <sys/types.h>
+
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace allpairs::app {
@@ -31,11 +35,15 @@ class SpooledInputs {
   /// A text with what the user calls the files in it.
   [[nodiscard]] std::string shownIn(std::string text) const;
 
+  /// Whether a file is what one of them was read from: standard input may be a file.
+  [[nodiscard]] bool isSource(const std::filesystem::path& file) const;
+
  private:
   struct Spooled {
     std::filesystem::path folder;  ///< Its own.
     std::filesystem::path file;
     std::filesystem::path shown;
+    std::optional<std::pair<dev_t, ino_t>> source{};  ///< The regular file that it was read from.
   };
 
   void spool(std::string& path, const std::string& format);

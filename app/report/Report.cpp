@@ -287,7 +287,9 @@ void runReport(const ReportSettings& settings) {
   if (settings.failOn == "clash" && !scene.isExact)
     throw UsageError("--fail-on clash is of shapes, and none were tested; --exact tests them");
   const std::size_t found = writeReport(scene, settings, date, earlier);
-  if (settings.open) openInBrowser(std::filesystem::absolute(std::filesystem::path(settings.folder) / "index.html"));
+  const std::filesystem::path page = std::filesystem::absolute(std::filesystem::path(settings.folder) / "index.html");
+  if (settings.open && found == 0) openInBrowser(page);
+  if (settings.open && found != 0) tryToOpen(page);  // what was found is the status, whether or not a browser shows it
   const std::string word = settings.failOn == "new" ? "new row" : settings.failOn == "pair" ? "row" : "row of clashes";
   const std::string words = settings.failOn == "clash" ? "rows of clashes" : word + 's';
   if (found != 0) throw Found(counted(found, word, words));

@@ -220,6 +220,7 @@ void fill(const BoxInput& input, const ViewRequest& request, view::ViewScene& to
   const Detection detection = detectBoxes(from, BoxPairOrder::NewestFirst, options);
   view::ViewFrame frame = boxFrame(from.boxes(), options);
   for (const auto& [first, second] : detection.pairs) frame.pairs.push_back({second, first});
+  if (!input.groups.empty()) frame.excluded = view::excludedPairs(to, frame);
   to.frames.push_back(std::move(frame));
   to.statistics = detection.statistics;
 }
@@ -236,6 +237,7 @@ view::ViewScene makeViewScene(const InputSettings& input, const ViewRequest& req
   const Timer timer;
   Inputs inputs = readInputs(input);
   const double readSeconds = timer.seconds();
+  if (const auto* scene = std::get_if<scene::Scene>(&inputs)) warnOfPart(input, *scene);
   ViewRequest asked = request;
   if (asked.shapes == ShapeTest::WhereShapesAre && areScenes(input)) asked.shapes = ShapeTest::Never;
   std::visit([&](auto& content) { fill(content, asked, result); }, inputs);

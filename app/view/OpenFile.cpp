@@ -2,6 +2,7 @@
 #include "view/OpenFile.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -9,6 +10,7 @@
 #include <array>
 #include <cerrno>
 #include <chrono>
+#include <cstdio>
 #include <thread>
 
 #include "allpairs/Error.h"
@@ -56,6 +58,14 @@ void openInBrowser(const std::string& target) {
   const int problem = start(target, child);
   if (problem == ENOENT) throw Error(std::string("there is no ") + kOpener + " here" + advice);
   if (problem != 0 || hasFailed(child)) throw Error(std::string(kOpener) + " found no way to open it" + advice);
+}
+
+void tryToOpen(const std::string& target) {
+  try {
+    openInBrowser(target);
+  } catch (const Error& problem) {
+    fmt::print(stderr, "allpairs: {}\n", problem.what());
+  }
 }
 
 }  // namespace allpairs::app

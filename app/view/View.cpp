@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include <fmt/format.h>
 #include <unistd.h>
 
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <CLI/Validators.hpp>
-#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
@@ -16,11 +14,11 @@
 #include "Clash.h"
 #include "Commands.h"
 #include "WritePage.h"
-#include "allpairs/Error.h"
 #include "allpairs/scene/FileError.h"
 #include "cli/ExitStatus.h"
 #include "cli/Options.h"
 #include "cli/Output.h"
+#include "cli/SignalCleanup.h"
 #include "cli/TemporaryFolder.h"
 #include "cli/Terminal.h"
 #include "cli/Text.h"
@@ -62,22 +60,39 @@ void writeFile(const view::ViewScene& scene, Output& output) {
   output.commit();
 }
 
-/// A new file in the folder for temporary files, which only the user may read.
-std::string temporaryFile() {
-  std::string name = temporaryFolder() / "allpairs-XXXXXX.html";
-  const int descriptor = ::mkstemps(name.data(), 5);
-  if (descriptor < 0) throw FileError(name, "cannot create a temporary file");
-  ::close(descriptor);
-  return name;
-}
-
-/// While a page is served, it is no failure that it opens nowhere by itself.
-void tryToOpen(const std::string& address) {
-  try {
-    openInBrowser(address);
-  } catch (const Error& problem) {
-    fmt::print(stderr, "allpairs: {}\n", problem.what());
+/// A new file in the folder for temporary files, which only the user may read; it goes with this object, or by a signal,
+/// unless it is kept.
+class TemporaryPage {
+ public:
+  TemporaryPage() : m_name(temporaryFolder() / "allpairs-XXXXXX.html") {
+    const int descriptor = ::mkstemps(m_name.data(), 5);
+    if (descriptor < 0) throw FileError(m_name, "cannot create a temporary file");
+    ::close(descriptor);
+    removeOnSignal(m_name);
   }
+  ~TemporaryPage() {
+    if (!m_isKept) ::unlink(m_name.c_str());
+    keepOnSignal(m_name);
+  }
+  TemporaryPage(const TemporaryPage&) = delete;
+  TemporaryPage& operator=(const TemporaryPage&) = delete;
+  TemporaryPage(TemporaryPage&&) = delete;
+  TemporaryPage& operator=(TemporaryPage&&) = delete;
+
+  [[nodiscard]] const std::string& name() const { return m_name; }
+  void keep() { m_isKept = true; }
+
+ private:
+  std::string m_name;
+  bool m_isKept = false;
+};
+
+std::string writeTemporaryPage(const view::ViewScene& scene) {
+  TemporaryPage page;
+  Output output(page.name());
+  writeFile(scene, output);
+  page.keep();
+  return page.name();
 }
 
 void serve(const view::ViewScene& scene, const ViewSettings& settings) {
@@ -108,8 +123,8 @@ void runView(const ViewSettings& settings) {
   if (output && output->isTerminal())
     throw UsageError("a page is not written to a terminal: use -o FILE, --open or --serve");
   const view::ViewScene scene = sceneOf(settings);
-  if (!output && !settings.serve) output.emplace(path = temporaryFile());
   if (output) writeFile(scene, *output);
+  if (!output && !settings.serve) path = writeTemporaryPage(scene);
   if (path) sayWritten(whatIsIn(scene), *path);
   if (settings.serve) return serve(scene, settings);
   if (settings.open) openInBrowser(std::filesystem::absolute(*path));
@@ -126,7 +141,7 @@ void addView(CLI::App& program) {
   addViewOptions(*command, settings->view);
   command->add_flag("--sequence", settings->sequence,
                     "Each INPUT is one frame of the same meshes: show pairs of triangles, frame by frame");
-  addOutput(*command, settings->output);
+  const CLI::Option* const output = addOutput(*command, settings->output);
   command->add_flag("--open", settings->open, "Open the page in the browser");
   CLI::Option* const serve =
       command->add_flag("--serve", settings->serve, "Serve the page to this machine until the program is stopped");
@@ -134,7 +149,9 @@ void addView(CLI::App& program) {
       command->add_option("--port", settings->port, "Port to serve on; 0, the default: any free port");
   port->type_name("P")->needs(serve);
   takeNumber(*port, 0, 65535);
-  command->callback([settings] {
+  command->callback([settings, output] {
+    if (output->count() != 0 && settings->output.empty() && (settings->open || settings->serve))
+      throw UsageError("-o -: a page for a browser is not written to standard output: name a file, or leave -o out");
     const std::string extension = lowerExtension(settings->output);
     if (!extension.empty() && extension != ".html" && extension != ".htm") {
       throw UsageError("-o: '" + settings->output + "': a page is written as .html");

@@ -64,6 +64,14 @@ TEST(Bench, ReadsBoxesFromAFile) {
   EXPECT_EQ(benchJson({file})["hash"], benchJson({"mesh", "-n", "500", "--seed", "3"})["hash"]);
 }
 
+TEST(Bench, OfAFileWithANameThatIsNotUtf8IsJsonAllTheSame) {
+  const TempFolder folder;
+  const std::string file = (folder.path() / "\"a\\\xFF.npy").string();
+  expectSuccess(runProgram({"generate", "mesh", "-n", "10", "-o", file}));
+  const std::string input = benchJson({file})["input"];
+  EXPECT_TRUE(input.ends_with("\"a\\\xEF\xBF\xBD.npy")) << input;
+}
+
 TEST(Bench, CountsWithoutAHash) {
   const nlohmann::json record = benchJson({"all-overlap", "-n", "50", "--count"});
   EXPECT_EQ(record["pairs"], 50 * 49 / 2);

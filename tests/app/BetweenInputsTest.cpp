@@ -126,6 +126,33 @@ TEST(BetweenInputs, AReportAndAPageLeaveThemOut) {
   }
 }
 
+/// How many pairs a page says that a rule excludes.
+std::size_t excludedIn(const std::string& page) {
+  const std::string begin = "id=\"allpairs-scene\">";
+  const std::size_t place = page.find(begin) + begin.size();
+  const Json scene = Json::parse(page.substr(place, page.find("</script>", place) - place));
+  for (const Json& array : scene["arrays"]) {
+    if (array["name"] == "excluded") return array["length"].get<std::size_t>() / 2;
+  }
+  return 0;
+}
+
+TEST(BetweenInputs, APageSaysWhichPairsTheyAre) {
+  const TempFolder folder;
+  const std::string first = folder.write("a.csv", "0,0,0,1,1,1,wall\n0,0,0,1,1,1,door\n5,0,0,6,1,1,far\n");
+  const std::string second = folder.write("b.csv", "0,0,0,1,1,1,pipe\n");
+  for (const std::string shapes : {"--boxes", "--exact"}) {
+    Arguments words{"view", first, second, shapes};
+    EXPECT_EQ(excludedIn(runProgram(words).out), 0U) << shapes;
+    words.emplace_back("--between-inputs");
+    EXPECT_EQ(excludedIn(runProgram(words).out), 1U) << shapes;
+    words.insert(words.end(), {"--box", "0.5,0,0,9,9,9"});
+    EXPECT_EQ(excludedIn(runProgram(words).out), 1U) << shapes;
+    words.back() = "4,0,0,9,9,9";
+    EXPECT_EQ(excludedIn(runProgram(words).out), 0U) << shapes;
+  }
+}
+
 TEST(BetweenInputs, NeedsTwoInputsThatHaveNoGroups) {
   const TempFolder folder;
   const std::string boxes = folder.write("a.csv", "0,0,0,1,1,1\n");

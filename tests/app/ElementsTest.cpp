@@ -124,6 +124,7 @@ TEST(Elements, WithoutAnEndOrUnderANameOfAnotherFormatIsWrongUsage) {
   expectFailure(runProgram({"elements", start}), 2, "has no END");
   expectFailure(runProgram({"elements", start, start, "-o", folder.path() / "x.npy"}), 2, "x.npy");
   expectFailure(runProgram({"elements", start, start, "--distance", "far"}), 2, "'far'");
+  expectFailure(runProgram({"elements", "missing", "missing", "-o", folder.path() / "x.dat"}), 2, "x.dat");
 }
 
 /// A step of the data, and how many candidates it is known to have.

@@ -164,11 +164,11 @@ TEST_F(Exact, ScriptsLearnOfClashesByTheStatus) {
     return run.out;
   };
   EXPECT_THAT(fails({"--fail-on", "clash"}, "2 clashes (1 contained), 1 touching, 1 apart"), HasSubstr("0.125 deep"));
-  fails({"--fail-on", "pair", "-o", to.string()}, "2 clashes");
+  fails({"--fail-on", "pair", "-o", to.string()}, "4 pairs\n");
   EXPECT_TRUE(std::filesystem::exists(to));
   for (const char* part : {"a-plate.obj", "e-pin.obj"}) std::filesystem::remove(parts() / part);
   expectSuccess(detect({"--fail-on", "clash"}));
-  fails({"--fail-on", "pair"}, "0 clashes, 1 touching, 1 apart");
+  fails({"--fail-on", "pair"}, "2 pairs\n");
   expectFailure(runProgram({"detect", parts().string(), "--fail-on", "clash"}), 2, "add --exact");
   EXPECT_EQ(runProgram({"detect", parts().string(), "--fail-on", "pair"}).status, 4);
   std::filesystem::remove(parts() / "b-bracket.obj");
@@ -187,6 +187,16 @@ TEST_F(Exact, NpyKeepsThePairsThatAreNotApart) {
   const ProgramRun run = detect({"--format", "npy"});
   expectSuccess(run);
   EXPECT_THAT(run.out, HasSubstr("'shape': (3, 2)"));
+}
+
+TEST_F(Exact, NpyHasThePairsOfBoxesAsWithoutShapes) {
+  const TempFolder folder;
+  const std::string boxes = folder.path() / "boxes.csv";
+  std::ofstream(boxes) << "0,0,0,1,1,1\n0,0,0,2,2,2\n0,0,0,3,3,3\n0.5,0.5,0.5,4,4,4\n";
+  const ProgramRun run = runProgram({"detect", boxes, "--format", "npy"});
+  expectSuccess(run);
+  EXPECT_THAT(run.out, HasSubstr("'shape': (6, 2)"));
+  EXPECT_EQ(runProgram({"detect", boxes, "--exact", "--format", "npy"}).out, run.out) << "all of them clash";
 }
 
 TEST_F(Exact, BoxesAreLookedAtAsSolids) {

@@ -131,6 +131,31 @@ TEST(DetectScene, APartialResultOfNothingIsBadInput) {
   EXPECT_EQ(runProgram({"detect", "--partial", empty}).status, 0);
 }
 
+TEST(PartialInput, IsNotSilentInAPageOrAReport) {
+  const TempFolder folder;
+  std::filesystem::create_directory(folder.path() / "parts");
+  const std::string parts = folder.path() / "parts";
+  const std::string broken = folder.write("parts/broken.stl", "solid\n facet\n");
+  const auto runAs = [&](const std::string& command) {
+    const std::string output = folder.path() / (command == "view" ? "page.html" : "report");
+    std::vector<std::string> words{command, parts, "--partial", "-o", output};
+    if (command == "report") words.insert(words.end(), {"--fail-on", "pair"});
+    return runProgram(words);
+  };
+  for (const char* command : {"view", "report"})
+    expectFailure(runAs(command), 3, parts + ": no model of it can be placed or read");
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "page.html"));
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "report"));
+  std::filesystem::rename(broken, folder.path() / "parts" / "other.stl");
+  folder.write("parts/part.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  for (const char* command : {"view", "report"}) {
+    const ProgramRun run = runAs(command);
+    EXPECT_EQ(run.status, 0) << run.err;
+    EXPECT_EQ(run.err,
+              "allpairs: warning: " + parts + ": 1 model left out; 'allpairs info --partial " + parts + "' lists it\n");
+  }
+}
+
 TEST(DetectScene, AMeshThatIsNotThereTellsWhereElseToSay) {
   const TempFolder folder;
   const std::string scene = folder.write("mesh.scn", R"(<Node name="root"><CollisionPipeline/><BruteForceDetection/>

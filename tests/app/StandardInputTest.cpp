@@ -124,6 +124,22 @@ TEST_F(StandardInput, IsAskedForOnceAndWithItsFormat) {
   expectFailure(run("\"$0\" detect - --input-format ../x < boxes.npy"), kWrongUsage, "is no extension of a file");
 }
 
+TEST_F(StandardInput, ThatIsAFileIsNotReplaced) {
+  const std::string same = " is standard input; the output needs another name";
+  const std::string before = run("cat boxes.npy").out;
+  for (const char* name : {"-", "/dev/stdin"}) {
+    expectFailure(run(std::string("\"$0\" detect ") + name + " --input-format npy -o boxes.npy < boxes.npy"), kBadInput,
+                  "boxes.npy:" + same);
+  }
+  expectFailure(run("ln -s boxes.npy link.npy; \"$0\" track - --input-format npy -o link.npy < boxes.npy"), kBadInput,
+                "link.npy:" + same);
+  expectFailure(run("cp boxes.npy page.html; \"$0\" view - --input-format npy -o page.html < page.html"), kBadInput,
+                "page.html:" + same);
+  EXPECT_EQ(run("cat boxes.npy").out, before);
+  EXPECT_EQ(run("cat page.html").out, before);
+  EXPECT_EQ(run("cat boxes.npy | \"$0\" detect - --input-format npy -o boxes.npy").status, 0) << "what a pipe brings";
+}
+
 TEST_F(StandardInput, AndOutputThatAreClosedAreErrors) {
   expectFailure(run("\"$0\" detect - --input-format npy < boxes.npy >&-"), kBadInput,
                 "standard output: cannot be written");

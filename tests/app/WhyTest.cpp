@@ -116,6 +116,14 @@ TEST(Why, NamesAnEmptyBox) {
             "'empty' (1) and 'a' (0) are no pair: the box of 'empty' (1) is empty: its min is above its max\n");
 }
 
+TEST(Why, BoxesAtTheSameInfinityAreNear) {
+  const TempFolder folder;
+  const std::string boxes = folder.write("boxes.csv", "a,inf,0,0,inf,1,1\nb,0,0,0,inf,1,1\n");
+  EXPECT_EQ(whyOf(boxes, "a", "b"),
+            "'b' (1) and 'a' (0) are a pair: their boxes are near enough, and no rule excludes them\n"
+            "  gaps of the boxes: -inf on x, -1 on y, -1 on z, below 0 where they overlap; a pair has at most 0\n");
+}
+
 TEST(Why, TakesANumberWhereNamesAreNumbersToo) {
   const TempFolder folder;
   const std::string names =

@@ -318,6 +318,32 @@ TEST(Open, SaysWhatToDoWhereNothingOpensIt) {
   expectFailure(fails, 3, "xdg-open found no way to open it: open " + page + " in a browser yourself");
 }
 
+TEST(Open, LeavesNoFileOfItsOwnThatIsNotWhole) {
+  const TempFolder folder;
+  const ProgramRun run =
+      runScript("ulimit -f 16; TMPDIR='" + folder.path().string() + "' \"$0\" view '" + kBoxes + "' --open");
+  expectFailure(run, 3, "cannot be written");
+  EXPECT_TRUE(fs::is_empty(folder.path()));
+}
+
+TEST(Open, AndServeWriteNoPageToStandardOutput) {
+  for (const std::string option : {"--open", "--serve"}) {
+    const ProgramRun run = runScript("timeout 30 \"$0\" view '" + kBoxes + "' -o - " + option);
+    expectFailure(run, 2, "-o -: a page for a browser is not written to standard output");
+  }
+}
+
+TEST(Open, TakesNothingFromTheStatusOfAReport) {
+  const TempFolder folder;
+  const std::string report = folder.path() / "report";
+  const std::string words = "PATH='" + folder.path().string() + "' \"$0\" report '" + kBoxes + "' -o '" + report + "' ";
+  const ProgramRun found = runScript(words + "--fail-on pair --open");
+  EXPECT_EQ(found.status, 4) << found.err;
+  const std::string advice = "there is no xdg-open here: open " + report + "/index.html in a browser yourself\n";
+  EXPECT_EQ(found.err, "allpairs: " + advice + "allpairs: --fail-on: found 2 rows\n");
+  EXPECT_EQ(runScript(words + "--open").status, 3);
+}
+
 /// Serves and opens, with PATH as given, until the file `sign` is there and says something.
 ProgramRun serveAndOpen(const std::string& path, const std::string& sign) {
   return runScript("PATH='" + path + "' \"$0\" view '" + kBoxes + "' --serve --open & child=$!; n=0\n" +
