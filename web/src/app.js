@@ -48,6 +48,7 @@ export class App extends EventTarget {
     this.kinds = modelKinds(this.table, this.scene.models);
     this.partners = partnerCounts(this.table, this.scene.models);
     this.counts = this.table.counts();
+    this.entry = this.entryOfChosen();
     this.stage?.setFrame(this.frame);
     if (flash && index > 0) this.flash();
     else this.clearFlash();
@@ -86,11 +87,16 @@ export class App extends EventTarget {
   choose(models, { look: frames = true } = {}) {
     this.models = models.length === 2 && models[0] === models[1] ? [models[0]] : models;
     this.isSelf = models.length === 2 && models[0] === models[1];
-    this.entry = models.length === 2 ? this.table.find(...models) : -1;
+    this.entry = this.entryOfChosen();
     if (this.visibility.reveal(models)) this.emit("visibility");
     this.restyle();
     if (frames && models.length > 0) this.lookAtChosen();
     this.emit("choice");
+  }
+
+  /** The entry of the pair that is chosen, in the table of the frame, or -1. */
+  entryOfChosen() {
+    return this.chosenPair ? this.table.find(...this.chosenPair) : -1;
   }
 
   /** A model while a pair of it is chosen, and the other way round, stays chosen when the frame changes. */

@@ -7,7 +7,7 @@ import { cornersOf, counted, grouped, measure, reasonText, selfReasonText } from
 import { copyNames } from "./listed.js";
 import { hiddenMark, tagsOf } from "./lists.js";
 import { VirtualList } from "./list.js";
-import { sharedExtents } from "./pairs.js";
+import { sharedExtents, volumeOf } from "./pairs.js";
 import { distanceOf, explainAny } from "./rules.js";
 
 const selfText = (reason) => {
@@ -119,7 +119,7 @@ export class Details {
     }
     const gap = Math.max(...extents.map((extent) => -extent));
     if (gap > 0) add("Apart by", `${measure(gap)} on ${"xyz"[extents.indexOf(-gap)]}`, "pair-gap");
-    else add("Volume shared", measure(extents[0] * extents[1] * extents[2]), "pair-volume");
+    else add("Volume shared", measure(volumeOf(extents)), "pair-volume");
     add("Overlap x, y, z", extents.map((extent) => measure(extent)).join(", "), "pair-extents");
     add("Gap allowed", measure(distanceOf(scene, Math.max(first, second), Math.min(first, second))));
     this.addBox(add, "First box", first);

@@ -47,11 +47,12 @@ export function listedModels({ scene, frame, partners, visibility }, items) {
   });
 }
 
-/** A text as a field: quoted where that is needed, and with ' before what a spreadsheet would take for a formula. */
+/** A text as a field: quoted where that is needed, and with ' before what a spreadsheet would take for a formula, by the rule of
+ * looksLikeFormula() in src/view/Text.cpp. */
 function field(value) {
   if (value === null) return "";
   if (typeof value !== "string" || value === "-inf") return String(value);
-  const text = /^[=+\-@\t\r]/.test(value) ? `'${value}` : value;
+  const text = /^'*[=+\-@\t\r]/.test(value) ? `'${value}` : value;
   return /[",\r\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text;
 }
 

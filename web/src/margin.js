@@ -42,7 +42,7 @@ export function pairsAt(scene, frame, distance) {
   return { pairs: flat(pairs), excluded: flat(excluded) };
 }
 
-const isOffered = ({ frames, exact, region, sequence, models }) => frames.length === 1 && exact === null && region === null && sequence === null && models <= mostModels;
+const isOffered = ({ frames, exact, region, sequence, models, distance }) => Number.isFinite(distance) && frames.length === 1 && exact === null && region === null && sequence === null && models <= mostModels;
 
 /** As many digits as a slider has. */
 const rounded = (distance) => Number(distance.toPrecision(3));

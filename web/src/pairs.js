@@ -99,8 +99,7 @@ export class PairTable {
 
   /** The volume that the two boxes share; of a self pair that of its box. */
   volume(entry) {
-    const extents = sharedExtents(this.frame.boxes, this.first(entry), this.second(entry));
-    return Math.max(0, extents[0]) * Math.max(0, extents[1]) * Math.max(0, extents[2]);
+    return volumeOf(sharedExtents(this.frame.boxes, this.first(entry), this.second(entry)));
   }
 
   /** The entry of two models, in either order, or -1. */
@@ -127,6 +126,9 @@ export class PairTable {
 export function sharedExtents(boxes, a, b) {
   return [0, 1, 2].map((k) => Math.min(boxes[6 * a + 3 + k], boxes[6 * b + 3 + k]) - Math.max(boxes[6 * a + k], boxes[6 * b + k]));
 }
+
+/** The volume of what two boxes share, from its extents: none where one of these is, and not infinity times zero. */
+export const volumeOf = (extents) => (extents.every((extent) => extent > 0) ? extents[0] * extents[1] * extents[2] : 0);
 
 const outFlags = 16 | 32;
 

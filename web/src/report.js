@@ -40,7 +40,8 @@ function sortBy(column, sign) {
     if (one === null || other === null) return (one === null) - (other === null);
     return sign * compare(one, other);
   });
-  document.querySelector("tbody").append(...sorted);
+  const body = document.querySelector("tbody");
+  for (const row of sorted) body.append(row); // one by one: a call takes only so many
 }
 
 function makeSortable() {

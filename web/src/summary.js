@@ -53,11 +53,12 @@ function remarks(scene) {
   const notes = [];
   if (scene.meshIsShortened) notes.push(make("p", "remark", "Some shapes are left out, because there are too many triangles; their boxes are here."));
   if (scene.ignored.length > 0) {
-    const items = scene.ignored.map(({ file, line, subject, reason }) => {
+    const list = make("ul");
+    for (const { file, line, subject, reason } of scene.ignored) {
       const place = [file, line || ""].filter(String).join(":");
-      return make("li", "", [...new Set([place, subject, reason])].filter(Boolean).join(": "));
-    });
-    notes.push(make("details", "remark", make("summary", "", `${counted(scene.ignored.length, "remark")} on the input`), make("ul", "", ...items)));
+      list.append(make("li", "", [...new Set([place, subject, reason])].filter(Boolean).join(": ")));
+    }
+    notes.push(make("details", "remark", make("summary", "", `${counted(scene.ignored.length, "remark")} on the input`), list));
   }
   return notes;
 }

@@ -176,6 +176,45 @@ inBoth("the margin slider finds the pairs of detect --distance", async () => {
   }
 });
 
+inChromium("pairs that --between-inputs leaves out are there from the start, and at any margin", async () => {
+  const inputs = [write("left.csv", "0,0,0,1,1,1,wall\n0,0,0,1,1,1,door\n5,0,0,6,1,1,far\n"), write("right.csv", "0,0,0,1,1,1,pipe\n8,0,0,9,1,1,off\n")];
+  const page = await view("between", [...inputs, "--between-inputs"]);
+  const excluded = async () => Number((await texts(page, "#pairs-chips .excluded b"))[0] ?? "0");
+  assert.equal(await excluded(), 1);
+  assert.equal(await page.isVisible("#show-excluded"), true);
+  for (const [distance, count] of [["4", 3], ["-2", 0], ["0", 1]]) {
+    await page.fill("#margin-number", distance);
+    await page.press("#margin-number", "Enter");
+    assert.equal(await excluded(), count, `at ${distance}`);
+    assert.equal(await page.isVisible("#show-excluded"), count > 0, `at ${distance}`);
+  }
+  await page.fill("#margin-number", "4");
+  await page.press("#margin-number", "Enter");
+  await page.click("#margin-reset");
+  assert.equal(await excluded(), 1);
+  assert.deepEqual(page.problems, []);
+  await page.close();
+});
+
+inChromium("a margin that is not finite is not moved", async () => {
+  const page = await view("unbounded", [write("unbounded.csv", "0,0,0,1,1,1\n5,0,0,6,1,1\n"), "--distance", "inf"]);
+  assert.equal(await page.isVisible("#margin"), false);
+  assert.equal(await number(page, "#fact-pairs"), 1);
+  assert.deepEqual(page.problems, []);
+  await page.close();
+});
+
+inChromium("boxes that touch share no volume, infinite ones neither", async () => {
+  const page = await view("slabs", [write("slabs.csv", "-inf,-inf,0,inf,inf,1\n-inf,-inf,1,inf,inf,2\n-inf,-inf,0.5,inf,inf,2\n")]);
+  assert.deepEqual((await texts(page, "#pairs-list .row .value")).sort(), ["0", "∞", "∞"]);
+  await page.click('#pairs-list .row[data-index="0"]');
+  assert.equal(await page.textContent("#pair-volume"), "0");
+  const [first] = JSON.parse((await page.download(() => page.click("#pairs-json"), "pairs.json")).toString());
+  assert.equal(first.volume, 0);
+  assert.deepEqual(page.problems, []);
+  await page.close();
+});
+
 inBoth("the address has what is chosen, and chooses it", async () => {
   const input = write("address.csv", "a b,0,0,0,2,2,2\nc,1,1,1,3,3,3\nc,1,1,1,3,3,2\n\"d,&\",0,0,0,2,2,1\n");
   const page = await view("address", [input]);
@@ -438,6 +477,37 @@ inChromium("a sequence of frames has the pairs of each frame, and what began and
   await page.waitForFunction(() => document.getElementById("time-frame").textContent === "Frame 2 of 0 to 11");
   await page.keyboard.press(" ");
   assert.equal(await page.getAttribute("#play", "aria-label"), "Play");
+  assert.deepEqual(page.problems, []);
+  await page.close();
+});
+
+inChromium("a pair that is chosen has its row in every frame, whatever comes before it", async () => {
+  const [a, b] = [[0, 0, 0, 1, 1, 1], [9, 0, 0, 10, 1, 1]];
+  const frames = [[b, a, a, a], [a, a, a, a], [a, b, a, a], [a, a, a, b]]; // pairs of models 1, 2 and 3; of all; of others
+  const page = await view("rows", [write("rows.npy", npy([4, 4, 6], frames.flat(2)))]);
+  const row = async () => (await page.$$eval("#pairs-list .row[aria-selected=true]", (rows) => rows.map((one) => [...one.querySelectorAll(".name")].map((name) => name.textContent).join())))[0];
+  for (let entry = 0; entry < 3; ++entry) await page.keyboard.press("j");
+  const chosen = await row();
+  assert.equal(chosen, "3,2");
+  for (const expected of [chosen, chosen, undefined]) {
+    await page.keyboard.press(".");
+    assert.equal(await row(), expected);
+  }
+  await page.keyboard.press(",");
+  assert.equal(await row(), chosen);
+  await page.keyboard.press("k");
+  assert.equal(await row(), "3,0", "steps go on from there");
+  assert.deepEqual(page.problems, []);
+  await page.close();
+});
+
+inChromium("a line of time has any number of frames", async () => {
+  const count = 130_000; // more than a call takes as arguments
+  const frames = Array.from({ length: count }, (_, t) => [0, 0, 0, 1, 1, 1, t % 2, 0, 0, t % 2 + 0.5, 1, 1].map((x) => x + 0.25 * (t % 3)));
+  const page = await view("long", [write("long.npy", npy([count, 2, 6], frames.flat()))]);
+  assert.equal(await page.textContent("#time-frame"), "Frame 0 of 0 to 129,999");
+  await page.keyboard.press(".");
+  assert.equal(await page.textContent("#time-frame"), "Frame 1 of 0 to 129,999");
   assert.deepEqual(page.problems, []);
   await page.close();
 });

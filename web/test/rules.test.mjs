@@ -7,6 +7,7 @@ import { join } from "node:path";
 import { test } from "node:test";
 import { parseScene } from "../src/data.js";
 import { measure } from "../src/format.js";
+import { csvOf } from "../src/listed.js";
 import { explain } from "../src/rules.js";
 import { allpairs, clothFrames, dataFolder, folder, root, scenesIn, verdicts, write } from "./program.mjs";
 
@@ -75,4 +76,10 @@ test("numbers are written as in the report", () => {
   // The same list is in tests/view/PictureTest.cpp, for the report.
   const numbers = [[0, "0"], [0.125, "0.125"], [102360.7, "102361"], [4.97592, "4.9759"], [99999.6, "100000"], [-12.5, "−12.5"], [1234.56, "1234.6"], [0.00012345678, "0.00012346"], [5.000000000000001, "5"], [1e9, "1000000000"], [0.1 + 0.2, "0.3"]];
   for (const [value, text] of numbers) assert.equal(measure(value), text);
+});
+
+test("a name that may be a formula is written as in the report's table", () => {
+  const names = ["=1+1", "'=1+1", "''-x", "'a", "a=1", "-inf", "'", "\t1"]; // "-inf" is a number that JSON has not
+  const fields = csvOf(names.map((name) => ({ name }))).trimEnd().split("\n").slice(1);
+  assert.deepEqual(fields, ["'=1+1", "''=1+1", "'''-x", "'a", "a=1", "-inf", "'", "'\t1"]);
 });
