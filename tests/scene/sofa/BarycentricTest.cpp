@@ -73,5 +73,48 @@ TEST_F(SofaBarycentric, OfWhatIsAsNearThatInTheLowerCellOfTheGridComesFirst) {
               IsBox(Corners{5, 5, -45, 5, 5, -45}));
 }
 
+TEST_F(SofaBarycentric, AGridHasAsManyPointsAsItsStateWhetherOrNotItListsCells) {
+  const auto grid = [](const std::string& lists) {
+    return "<RequiredPlugin name='Sofa.Component.X'/><RegularGridTopology n='9 9 9' min='0 0 0' max='1 1 1' " + lists +
+           "/><MechanicalObject useTopology='0' position='0 0 0'/>"
+           "<Node><MechanicalObject position='0.9 0.9 0.9'/><BarycentricMapping/><PointModel/></Node>";
+  };
+  for (const auto lists : {"", "computeHexaList='0' computeQuadList='0' computeTriangleList='0' computeEdgeList='0'"})
+    EXPECT_THAT(complaintIn(grid(lists)), testing::HasSubstr("more points than its input's state")) << lists;
+}
+
+TEST_F(SofaBarycentric, APlaceInAGridThatIsNoNumberIsNamed) {
+  EXPECT_THAT(
+      complaintIn("<RegularGridTopology n='2 2 2' min='-1e308 0 0' max='1e308 1 1'/>"
+                  "<MechanicalObject useTopology='0' position='0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0'/>"
+                  "<Node><MechanicalObject position='1e308 0 0'/><BarycentricMapping/><PointModel/></Node>"),
+      testing::HasSubstr("not finite"));
+}
+
+TEST_F(SofaBarycentric, NothingIsBoundToAContainerWithoutCells) {
+  m_sofa = SofaVersion::Sofa2612;
+  const auto boundTo = [this](const std::string& container) {
+    return readIn("<" + container + "/><MechanicalObject/>" +
+                  "<Node><MechanicalObject position='0.3 5 5'/><BarycentricMapping/><PointModel/></Node>")
+        .models.at(0)
+        .positions;
+  };
+  const std::string points = " position='0 0 0 1 0 0 0 1 0'";
+  const std::string edges = points + " edges='0 1 1 2'";
+  EXPECT_THAT(boundTo("PointSetTopologyContainer" + points), testing::IsEmpty());
+  EXPECT_THAT(boundTo("TriangleSetTopologyContainer" + edges), testing::IsEmpty());
+  EXPECT_THAT(boundTo("MeshTopology" + edges), testing::ElementsAre(Vec3{0.3, 0, 0}));
+  m_sofa = SofaVersion::Sofa2006;
+  EXPECT_THAT(boundTo("PointSetTopologyContainer" + points), testing::IsEmpty());
+}
+
+TEST_F(SofaBarycentric, MorePairsOfPointsAndCellsThanTheFilesAreWorthAreRefused) {
+  EXPECT_THAT(complaintIn("<RegularGridTopology name='g' n='50 50 50'/><MeshTopology name='t' position='@g.position' "
+                          "hexahedra='@g.hexahedra'/><MechanicalObject position='@g.position'/><Node>"
+                          "<MechanicalObject position='@../g.position'/><BarycentricMapping input_topology='@../t'/>"
+                          "<PointModel/></Node>"),
+              testing::HasSubstr("125000 points to 117649 cells takes longer"));
+}
+
 }  // namespace
 }  // namespace allpairs::scene::sofa

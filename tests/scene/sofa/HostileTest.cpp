@@ -84,5 +84,24 @@ TEST_F(SofaHostile, HugeNumbersAreNamed) {
     EXPECT_THAT(complaintIn(text), HasSubstr("scene.scn:2")) << text;
 }
 
+TEST_F(SofaHostile, SidesOfACubeWithoutPointsCountAsMuchAsOthers) {
+  EXPECT_THAT(complaintIn("<CubeTopology nx='6000' ny='6000' nz='0'/><MechanicalObject/><PointModel/>"),
+              HasSubstr("with 144000000 points it takes more than"));
+}
+
+/// Each would take twice as long as the one before it, and more, if what it gives were not remembered.
+TEST_F(SofaHostile, ChainsOfLinksTakeNoLongerThanTheyAre) {
+  std::string states = "<MechanicalObject name='m0' position='0 0 0 1 1 1' translation='1 0 0'/>";
+  std::string merges = "<MergePoints name='m0' position1='' position2=''/>";
+  for (int i = 1; i < 40; ++i) {
+    const auto last = std::to_string(i - 1);
+    states += "<MechanicalObject name='m" + std::to_string(i) + "' src='@m" + last + "'/>";
+    merges += "<MergePoints name='m" + std::to_string(i) + "' position1='@m" + last + ".points' position2='@m" + last +
+              ".points'/>";
+  }
+  EXPECT_EQ(complaintIn(states + "<PointModel/>"), "");
+  EXPECT_EQ(complaintIn(merges + "<MechanicalObject position='@m39.points'/><PointModel/>"), "");
+}
+
 }  // namespace
 }  // namespace allpairs::scene::sofa

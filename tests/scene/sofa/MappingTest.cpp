@@ -459,5 +459,19 @@ TEST_F(SofaMapping, PointsInASparseGridFollowAFrameThatCarriesIt) {
               HasSubstr("its sparse grid moves in an unknown way"));
 }
 
+TEST_F(SofaMapping, WhatAMappingWritesIsNoPointOfASparseGrid) {
+  const std::string grid = "<SparseGridTopology n='3 3 3' nbVirtualFinerLevels='2'/>";
+  EXPECT_THAT(onlyBox(readIn("<MechanicalObject position='1 0 0 2 0 0'/><Node>" + grid +
+                             "<MechanicalObject/><IdentityMapping/><PointModel/></Node>")),
+              IsBox(Corners{1, 0, 0, 2, 0, 0}));
+  EXPECT_THAT(onlyBox(readIn("<MechanicalObject position='1 0 0 2 0 0'/><Node>" + grid +
+                             "<MechanicalObject/><SubsetMapping indices='1'/><PointModel/></Node>")),
+              IsBox(Corners{2, 0, 0, 2, 0, 0}));
+  EXPECT_THAT(complaintIn("<MechanicalObject template='Rigid3' position='1 0 0 0 0 0 1'/><Node>" + grid +
+                          "<MechanicalObject name='m'/><RigidMapping/><Node>" + grid +
+                          "<MechanicalObject position='@../m.position'/>" + kOnSparseGrid + "</Node></Node>"),
+              HasSubstr("sparse grid, which this reader does not compute"));
+}
+
 }  // namespace
 }  // namespace allpairs::scene::sofa

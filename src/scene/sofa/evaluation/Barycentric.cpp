@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -36,14 +38,17 @@ class Cells {
     if (m_triangles.empty() && m_quads.empty()) m_edges = topology.edges();
   }
 
-  [[nodiscard]] bool empty() const {
-    return m_tetrahedra.empty() && m_hexahedra.empty() && m_triangles.empty() && m_quads.empty() && m_edges.empty();
+  [[nodiscard]] std::size_t count() const {
+    return m_tetrahedra.size() + m_hexahedra.size() + m_triangles.size() + m_quads.size() + m_edges.size();
   }
+  [[nodiscard]] bool onlyEdges() const { return !m_edges.empty(); }
+  [[nodiscard]] bool empty() const { return count() == 0; }
   /// Tetrahedra and triangles give back the point they were given; the others may not.
   [[nodiscard]] bool onlyTetrahedra() const { return !m_tetrahedra.empty() && m_hexahedra.empty(); }
 
-  [[nodiscard]] std::vector<Coordinates> locate(const std::vector<Vec3>& points, const std::vector<Vec3>& in) const {
-    if (!m_edges.empty()) return locateOnEdges(points, in);
+  [[nodiscard]] std::vector<Coordinates> locate(const std::vector<Vec3>& points, const std::vector<Vec3>& in,
+                                                const ReadScope& scope) const {
+    if (!m_edges.empty()) return locateOnEdges(points, in, scope);
     std::vector<Frame> frames;
     for (const auto& c : m_tetrahedra) frames.push_back(frame(in, c, {c[1], c[2], c[3]}, Shape::Tetrahedron));
     for (const auto& c : m_hexahedra) frames.push_back(frame(in, c, {c[1], c[3], c[4]}, Shape::Hexahedron));
@@ -51,8 +56,10 @@ class Cells {
     for (const auto& c : m_quads) frames.push_back(frame(in, c, {c[1], c[3], c[0]}, Shape::Quad));
     const auto reaches = m_sides.empty() ? Reaches{} : reachesIn(in);
     std::vector<Coordinates> result;
-    for (const auto& point : points)
+    for (const auto& point : points) {
+      scope.checkStop();  // A point looks at all cells.
       result.push_back(m_sides.empty() ? nearestOf(frames, point) : nearestInGrid(frames, reaches, point));
+    }
     return result;
   }
 
@@ -201,10 +208,11 @@ class Cells {
   }
 
   /// The first edge beside which a point lies, or else the last edge.
-  [[nodiscard]] std::vector<Coordinates> locateOnEdges(const std::vector<Vec3>& points,
-                                                       const std::vector<Vec3>& in) const {
+  [[nodiscard]] std::vector<Coordinates> locateOnEdges(const std::vector<Vec3>& points, const std::vector<Vec3>& in,
+                                                       const ReadScope& scope) const {
     std::vector<Coordinates> result;
     for (const auto& point : points) {
+      scope.checkStop();
       Coordinates found;
       for (std::size_t e = 0; e < m_edges.size(); ++e) {
         const auto along = in[m_edges[e][1]] - in[m_edges[e][0]];
@@ -233,8 +241,9 @@ std::vector<Vec3> throughGrid(const GridShape& grid, const std::vector<Vec3>& in
     Vec3 at{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const double local = grid.spacing[axis] != 0 ? (point[axis] - grid.origin[axis]) / grid.spacing[axis] : 0;
-      cell[axis] =
-          static_cast<std::size_t>(std::clamp(std::floor(local), 0.0, static_cast<double>(grid.points[axis]) - 2));
+      const double last = static_cast<double>(grid.points[axis]) - 2;
+      // What is no number, where coordinates overflow, is in no cell; the sum says that it is not finite.
+      cell[axis] = std::isnan(local) ? 0 : static_cast<std::size_t>(std::clamp(std::floor(local), 0.0, last));
       at[axis] = local - static_cast<double>(cell[axis]);
     }
     Vec3 sum{};
@@ -248,17 +257,41 @@ std::vector<Vec3> throughGrid(const GridShape& grid, const std::vector<Vec3>& in
   return result;
 }
 
-void checkPointCount(const Component& mapping, Topology& topology, std::size_t points) {
-  if (indicesUsed(topology.given) > points)
+/// A volume of a grid is read by the numbers of its points, whether or not it lists cells of them.
+std::size_t pointsRead(const Topology& topology) {
+  const auto used = indicesUsed(topology.given);
+  if (!topology.grid || !topology.grid->isVolume()) return used;
+  const auto& points = topology.grid->points;
+  return std::max(used, points[0] * points[1] * points[2]);
+}
+
+void checkPointCount(const Component& mapping, const Topology& topology, std::size_t points) {
+  if (pointsRead(topology) > points)
     throw Unplaceable(mapping, "the topology of its input has more points than its input's state");
 }
 
-std::vector<Vec3> throughCells(const Cells& cells, const State& in, const State& child, bool boundAtRest) {
+/// A scene may ask in few words for many points and cells, whose product is the time that binding takes: it counts as
+/// memory does.
+void takeWork(Evaluation& evaluation, const Component& mapping, std::uint64_t points, std::uint64_t cells) {
+  constexpr std::uint64_t kPairsPerByte = 32;  // 256 MiB are half a minute.
+  const auto bytes = points * cells / kPairsPerByte;
+  if (bytes > evaluation.scope().left())
+    throw Unplaceable(mapping, fmt::format("to bind {} points to {} cells takes longer than this reader may for files "
+                                           "of this size; --max-memory allows more",
+                                           points, cells));
+  evaluation.scope().take(bytes);
+}
+
+std::vector<Vec3> throughCells(Evaluation& evaluation, const Component& mapping, const State& in, const State& child,
+                               const Cells& cells) {
+  const bool boundAtRest = evaluation.flag(mapping, "useRestPosition", false);
   if (cells.onlyTetrahedra() && !boundAtRest) return child.positions;
   if (cells.empty()) return {};
   if (boundAtRest && in.rest.size() < in.positions.size()) return {};  // no cell is at rest anywhere
+  const auto& points = boundAtRest ? child.rest : child.positions;
+  takeWork(evaluation, mapping, points.size(), cells.count());
   std::vector<Vec3> result;
-  for (const auto& at : cells.locate(boundAtRest ? child.rest : child.positions, boundAtRest ? in.rest : in.positions))
+  for (const auto& at : cells.locate(points, boundAtRest ? in.rest : in.positions, evaluation.scope()))
     result.push_back(cells.interpolate(at, in.positions));
   return result;
 }
@@ -303,15 +336,12 @@ std::vector<Vec3> mapBarycentrically(Evaluation& evaluation, const Component& ma
     evaluation.warn(mapping, "the grid of its input is no volume, and it moves nothing, as in SOFA");
     return child.positions;
   }
-  const bool boundAtRest = evaluation.flag(mapping, "useRestPosition", false);
-  switch (which->kind()) {
-    case PointContainer:
-      return child.positions;  // SOFA finds no way to map, says so, and leaves the child alone.
-    case EdgeContainer:
-      return {};  // SOFA binds no point to these.
-    default:
-      return throughCells(Cells(topology, evaluation.generation()), in, child, boundAtRest);
-  }
+  const Cells cells(topology, evaluation.generation());
+  // SOFA binds no point to the edges of a container. Which container it is newer SOFA tells by what it has.
+  const bool isContainer = topology.family == Topology::Family::Container;
+  const bool byElements = isContainer && evaluation.generation() != Generation::Sofa20;
+  if (which->kind() == EdgeContainer || (byElements && cells.onlyEdges())) return {};
+  return throughCells(evaluation, mapping, in, child, cells);
 }
 
 }  // namespace allpairs::scene::sofa

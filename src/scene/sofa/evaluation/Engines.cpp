@@ -101,7 +101,7 @@ std::optional<GridMotion> gridMotion(Evaluation& evaluation, const Component& co
     return GridMotion{.map = {}, .areUnknown = evaluation.topology(*from).unknown};
   if (from->kind() == ComponentKind::MechanicalState && data == "position") {
     const auto& state = evaluation.state(*from);
-    if (!state.pointsUnknown) return std::nullopt;
+    if (!state.pointsUnknown || !state.fromTopology) return std::nullopt;
     return GridMotion{.map = *state.fromTopology, .areUnknown = true};
   }
   if (from->kind() != ComponentKind::TransformEngine || data != "output_position") return std::nullopt;

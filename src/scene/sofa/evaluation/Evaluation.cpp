@@ -301,8 +301,18 @@ const Component* Evaluation::source(const Component& component) const {
 }
 
 std::optional<Numbers> Evaluation::output(const Component& component, std::string_view name) {
+  std::pair<const Component*, std::string> key{&component, name};
+  if (const auto found = m_outputs.find(key); found != m_outputs.end()) return found->second;
+  const Busy busy(*this, component, key.second + " data");
+  auto value = computed(component, name);
+  // The lists of meshes, topologies and states are large, and those are remembered themselves.
+  if (isMeshData(name) && !isEngine(component.kind())) return value;
+  if (value) m_scope.take(value->values.size() * sizeof(double));
+  return m_outputs.emplace(std::move(key), std::move(value)).first->second;
+}
+
+std::optional<Numbers> Evaluation::computed(const Component& component, std::string_view name) {
   const auto kind = component.kind();
-  const Busy busy(*this, component, std::string{name} + " data");
   if (kind == ComponentKind::MechanicalState || kind == ComponentKind::MeshLoader)
     if (const auto value = placementData(*this, component, name)) return Numbers{{value->begin(), value->end()}, 3};
   if (kind == ComponentKind::SphereLoader && name == "scale3d") {  // A second name of its scale, since 20.12.

@@ -3,11 +3,12 @@
 
 #include <cstddef>
 #include <initializer_list>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <unordered_map>
-#include <unordered_set>
+#include <utility>
 #include <vector>
 
 #include "input/ReadScope.h"
@@ -93,6 +94,7 @@ class Evaluation {
   std::optional<Numbers> linked(const Component& component, std::string_view name, const std::string& text);
   std::optional<Numbers> throughSrc(const Component& component, std::string_view name);
   std::optional<Numbers> output(const Component& component, std::string_view name);
+  std::optional<Numbers> computed(const Component& component, std::string_view name);
   const Component* source(const Component& component) const;
   void indexMappings(const Node& node);
   bool isMade(const Component& mapping, const Wanted& wanted);
@@ -102,6 +104,7 @@ class Evaluation {
   std::unordered_map<const Component*, Mesh> m_meshes;
   std::unordered_map<const Component*, Topology> m_topologies;
   std::unordered_map<const Component*, State> m_states;
+  std::map<std::pair<const Component*, std::string>, std::optional<Numbers>> m_outputs;
   std::unordered_map<const Component*, const Component*> m_mappings;
   std::unordered_map<const Component*, const Component*> m_topologicalMappings;
   std::vector<std::pair<const Component*, std::string>> m_busy;

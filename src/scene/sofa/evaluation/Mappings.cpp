@@ -71,6 +71,7 @@ LocalPoints localPoints(Evaluation& evaluation, const Component& mapping, const 
     if (child.kind == State::Kind::Rigid && child.rest != child.positions)
       throw Unplaceable(mapping, "its frames at rest are not known to this reader");
     local.setPoints(child.rest);
+    local.pointsUnknown = child.pointsUnknown;  // at rest too
     return {std::move(local), false};
   }
   if (const auto file = evaluation.file(mapping, {"filename", "fileRigidMapping"})) {
@@ -81,6 +82,7 @@ LocalPoints localPoints(Evaluation& evaluation, const Component& mapping, const 
     const auto given = evaluation.numbers(mapping, {"initialPoints"}, child.width());
     if (!given || given->size() == 0) return {std::move(local)};
     local.setPositions(*given);
+    local.pointsUnknown = false;
     return {std::move(local), false};
   }
   return {std::move(local)};
@@ -110,13 +112,14 @@ State mapIdentically(const State& parent, State child) {
 }
 
 /// For each wanted point the nearest of the others within a distance; the number of the others where there is none.
-std::vector<std::size_t> nearestWithin(const std::vector<Vec3>& wanted, const std::vector<Vec3>& others,
-                                       double radius) {
+std::vector<std::size_t> nearestWithin(const std::vector<Vec3>& wanted, const std::vector<Vec3>& others, double radius,
+                                       const ReadScope& scope) {
   std::vector<std::size_t> order(others.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::sort(order, [&](auto a, auto b) { return std::pair{others[a][0], a} < std::pair{others[b][0], b}; });
   std::vector<std::size_t> result;
   for (const auto& p : wanted) {
+    scope.checkStop();  // Within a large radius a point looks at all others.
     auto best = std::pair{radius, others.size()};
     auto at = std::ranges::lower_bound(order, p[0] - radius, {}, [&](auto i) { return others[i][0]; });
     for (; at != order.end() && others[*at][0] <= p[0] + radius; ++at) {
@@ -139,7 +142,8 @@ std::vector<std::size_t> subsetIndices(Evaluation& evaluation, const Component& 
   }
   const auto first = evaluation.number(mapping, {"first"}, -1), last = evaluation.number(mapping, {"last"}, -1);
   if (first == -1)
-    return nearestWithin(child.positions, parent.positions, evaluation.number(mapping, {"radius"}, kSubsetRadius));
+    return nearestWithin(child.positions, parent.positions, evaluation.number(mapping, {"radius"}, kSubsetRadius),
+                         evaluation.scope());
   const auto end = static_cast<double>(count);
   const auto from = static_cast<std::size_t>(first >= 0 && first < end ? first : 0);
   const auto to = static_cast<std::size_t>(last >= 0 && last < end ? last + 1 : end);
@@ -162,6 +166,8 @@ State mapSubset(Evaluation& evaluation, const Component& mapping, const State& p
       result.positions[i] = child.rest[i];
     }
   }
+  const auto isOfParent = [&](std::size_t index) { return index < parent.positions.size(); };
+  if (!indices.empty() && std::ranges::all_of(indices, isOfParent)) result.pointsUnknown = false;
   return result;
 }
 

@@ -50,8 +50,7 @@ State mapAllOf(Evaluation& evaluation, const Component& mapping, State child) {
   const auto inputs = inputsOf(evaluation, mapping);
   for (const auto* input : inputs)
     if (!isMade(evaluation, mapping, *input, child)) return child;
-  child.resize(0);
-  child.fromTopology.reset();
+  child.setCount(0);
   for (const auto* input : inputs) {
     evaluation.takePoints(mapping, input->positions.size());
     for (std::size_t i = 0; i < input->positions.size(); ++i) append(child, *input, i);
@@ -64,8 +63,7 @@ State mapSomeOf(Evaluation& evaluation, const Component& mapping, State child) {
   for (const auto* input : inputs)
     if (!isMade(evaluation, mapping, *input, child)) return child;
   const auto pairs = evaluation.indices(mapping, {"indexPairs"});
-  child.resize(0);
-  child.fromTopology.reset();
+  child.setCount(0);
   for (std::size_t i = 0; i + 1 < pairs.size(); i += 2) {
     if (pairs[i] >= inputs.size() || pairs[i + 1] >= inputs[pairs[i]]->positions.size())
       throw Unplaceable(mapping, "indexPairs names a point that isn't there");

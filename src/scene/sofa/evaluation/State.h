@@ -46,7 +46,8 @@ struct State {
   std::vector<Vec3> rest;          ///< The rest positions.
   /// Set while the positions are the points of a topology, moved by this.
   std::optional<AffineMap> fromTopology;
-  /// That topology is a sparse grid: how it is moved is known, where its points are isn't.
+  /// They are the points of a sparse grid, and where those are isn't known; how they are moved is while fromTopology
+  /// is set.
   bool pointsUnknown = false;
   /// A mapping writes it once all states are placed, or one that its position links to.
   bool isWrittenAgain = false;
@@ -64,10 +65,18 @@ struct State {
     }
   }
 
-  /// Takes points for its positions; frames that it did not have are not turned.
+  /// Takes points that are known for its positions; frames that it did not have are not turned.
   void setPoints(std::vector<Vec3> points) {
     resize(points.size());
     positions = std::move(points);
+    pointsUnknown = false;
+  }
+
+  /// Makes room for points that come from elsewhere than a topology, all of them known.
+  void setCount(std::size_t count) {
+    resize(count);
+    fromTopology.reset();
+    pointsUnknown = false;
   }
 
   void resize(std::size_t count) {

@@ -33,19 +33,33 @@ Vec3 singles(const Component& component, const std::array<std::string_view, 3>& 
           single(component, names[2], standard)};
 }
 
+Vec3 scaleOf(Evaluation& evaluation, const Component& c) {
+  Vec3 scale = evaluation.vector(c, {"scale3d"}, {1, 1, 1});
+  if (c.attributes.has("scale")) scale = Vec3{1, 1, 1} * single(c, "scale", 1);
+  return singles(c, {"sx", "sy", "sz"}, scale, 1);
+}
+
+/// One of the four data of a state that turn or move it.
+struct Turn {
+  std::string_view name;
+  std::array<std::string_view, 3> singles;
+};
+
+constexpr Turn kRotation{"rotation", {"rx", "ry", "rz"}};
+constexpr Turn kTranslation{"translation", {"dx", "dy", "dz"}};
+constexpr Turn kRotation2{"rotation2", {"rx2", "ry2", "rz2"}};
+constexpr Turn kTranslation2{"translation2", {"dx2", "dy2", "dz2"}};
+
+Vec3 turnOf(Evaluation& evaluation, const Component& c, const Turn& turn) {
+  return singles(c, turn.singles, evaluation.vector(c, {turn.name}, {}), 0);
+}
+
 Placement placementOf(Evaluation& evaluation, const Component& c) {
-  Placement placement;
-  const auto vector = [&](std::string_view name, const Vec3& standard) {
-    return evaluation.vector(c, {name}, standard);
-  };
-  placement.scale = vector("scale3d", {1, 1, 1});
-  if (c.attributes.has("scale")) placement.scale = Vec3{1, 1, 1} * single(c, "scale", 1);
-  placement.scale = singles(c, {"sx", "sy", "sz"}, placement.scale, 1);
-  placement.rotation = singles(c, {"rx", "ry", "rz"}, vector("rotation", {}), 0);
-  placement.translation = singles(c, {"dx", "dy", "dz"}, vector("translation", {}), 0);
-  placement.rotation2 = singles(c, {"rx2", "ry2", "rz2"}, vector("rotation2", {}), 0);
-  placement.translation2 = singles(c, {"dx2", "dy2", "dz2"}, vector("translation2", {}), 0);
-  return placement;
+  return {.scale = scaleOf(evaluation, c),
+          .rotation = turnOf(evaluation, c, kRotation),
+          .translation = turnOf(evaluation, c, kTranslation),
+          .rotation2 = turnOf(evaluation, c, kRotation2),
+          .translation2 = turnOf(evaluation, c, kTranslation2)};
 }
 
 void move(State& state, const Vec3& scale, const Vec3& rotation, const Vec3& translation) {
@@ -161,6 +175,7 @@ void copyAgain(Evaluation& evaluation, const Component& component, const Numbers
   state.setPositions(given);
   if (state.rest.size() != state.positions.size()) state.rest = state.positions;
   state.fromTopology.reset();
+  state.pointsUnknown = false;
   if (state.positions != placed.positions || state.orientations != placed.orientations)
     evaluation.warn(component,
                     "its position links to a state that a mapping moves: as in SOFA, it is that state's in the end, "
@@ -212,14 +227,12 @@ void warnOfProjections(Evaluation& evaluation, const Component& state) {
 }  // namespace
 
 std::optional<Vec3> placementData(Evaluation& evaluation, const Component& component, std::string_view name) {
-  const auto placement = placementOf(evaluation, component);
+  // Only what is asked for: each may hang on a chain of others.
   if (name == "scale3d" && component.kind() == MeshLoader)  // Loaders multiply where states replace.
     return evaluation.vector(component, {"scale3d"}, {1, 1, 1}) * single(component, "scale", 1);
-  if (name == "scale3d") return placement.scale;
-  if (name == "rotation") return placement.rotation;
-  if (name == "translation") return placement.translation;
-  if (name == "rotation2") return placement.rotation2;
-  if (name == "translation2") return placement.translation2;
+  if (name == "scale3d") return scaleOf(evaluation, component);
+  for (const auto& turn : {kRotation, kTranslation, kRotation2, kTranslation2})
+    if (name == turn.name) return turnOf(evaluation, component, turn);
   return std::nullopt;
 }
 

@@ -195,7 +195,9 @@ Topology cubeTopology(Evaluation& evaluation, const Component& component) {
   for (std::size_t axis = 0; axis < 3; ++axis)
     grid.spacing[axis] = counts[axis] > 1 ? (corners.max[axis] - corners.min[axis]) / (counts[axis] - 1) : 0.0;
   constexpr std::uint64_t kElements = 4;  // elements take this many times the memory of the points
-  evaluation.takePoints(component, kElements * grid.points[0] * grid.points[1] * grid.points[2]);
+  std::uint64_t count = kElements;
+  for (const auto points : grid.points) count *= std::max<std::size_t>(points, 1);  // SOFA lists sides of no points.
+  evaluation.takePoints(component, count);
   Topology topology;
   topology.given = cubeSurface(grid, hasInner);
   topology.pointCount = topology.given.positions.size();
