@@ -118,11 +118,17 @@ TEST(ObjMesh, ALineMayGoOnInTheNext) {
             "long.obj TTriangleModel 1\n");
 }
 
+TEST(ObjMesh, ACommentDoesNotGoOnInTheNextLine) {
+  const scene::Scene scene = read("a.obj", "# C:\\temp\\\nv 5 0 0\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 3 4\n");
+  EXPECT_EQ(boxOf(*scene.models[0]), (Box{{0, 0, 0}, {5, 1, 0}}));
+}
+
 TEST(ObjMesh, MayBeginWithAMarkAndHaveTheLinesOfOldMacs) {
   const std::string text = "v 9 0 0\nv 0 0 0\nv 0 1 0\nf 1 2 3\n";
   std::string mac = text;
   std::replace(mac.begin(), mac.end(), '\n', '\r');
-  for (const std::string& bytes : {"\xEF\xBB\xBF" + text, mac, "\xEF\xBB\xBF" + mac}) {
+  for (const std::string& bytes : {"\xEF\xBB\xBF" + text, mac, "\xEF\xBB\xBF" + mac, mac + "# one of another\n",
+                                   std::string("v 9 0 0\r\r\nv 0 0 0\r\nv 0 1 0\rf 1 2 3")}) {
     const scene::Scene scene = read("a.obj", bytes);
     EXPECT_EQ(namesOf(scene), "a.obj TTriangleModel 1\n");
     EXPECT_EQ(boxOf(*scene.models[0]), (Box{{0, 0, 0}, {9, 1, 0}}));
@@ -139,6 +145,8 @@ TEST(ObjMesh, ErrorsNameTheLine) {
   expectProblem("a.obj", "v 0 0 0\nf 99999999999999999999 1 1\n", "a.obj:2:");
   expectProblem("a.obj", "# nothing\n", "holds no triangles, lines or points");
   expectProblem("a.obj", "v 0 0 0\nsurf 0 1 0 1 1\n", "a.obj:2: 'surf' is not read");
+  expectProblem("a.obj", "v 0 0 0\ncall other.obj\n", "a.obj:2: 'call' is not read");
+  expectProblem("a.obj", "v 0 0 0\r\r\nv 0 nan 0\r\r\n", "a.obj:2: 'nan' is no finite number");
   expectProblem("a.obj", "v 0 0 0\nfo 1 1 1\n", "a.obj:2: 'fo' is not read");
 }
 

@@ -155,6 +155,18 @@ TEST(PlyMesh, ErrorsNameTheLine) {
       "mesh.ply: its faces have no list 'vertex_indices'");
 }
 
+TEST(PlyMesh, EdgesAndStripsWhoseVerticesGoByOtherNamesAreRefused) {
+  const auto expectRefused = [](const std::string& element, const std::string& row, const std::string& part) {
+    expectFileError([&] { (void)read(ascii(kVertices + element, "0 0 0\n1 0 0\n0 1 0\n1 1 0\n" + row)); }, part);
+  };
+  const std::string ends = "mesh.ply: its edges have no numbers 'vertex1' and 'vertex2'";
+  expectRefused("element edge 1\nproperty int vertex_1\nproperty int vertex_2\n", "1 2\n", ends);
+  expectRefused("element edge 1\nproperty int vertex1\n", "1\n", ends);
+  expectRefused("element edge 1\nproperty int vertex1\nproperty list int int vertex2\n", "1 1 2\n", ends);
+  expectRefused("element tristrips 1\nproperty list int int strip\n", "3 0 1 2\n",
+                "mesh.ply: its strips of triangles have no list 'vertex_indices'");
+}
+
 TEST(PlyMesh, VerticesOfFacesOfOneCornerAreThereOnce) {
   const scene::Scene scene =
       read(ascii("element vertex 2\nproperty float x\nproperty float y\nproperty float z\n"

@@ -137,5 +137,13 @@ TEST(StlMesh, HugeClaimsEndWithTheFile) {
                    "mesh.stl: truncated: the header promises 214748364834 bytes, the file has 134");
 }
 
+/// Looking for the end of a normal in all that is left of the line would take minutes.
+TEST(StlMesh, AllFacetsMayStandInOneLine) {
+  std::string facets;
+  for (int i = 0; i < 30'000; ++i)
+    facets += "facet normal 0 0 1 outer loop vertex 0 0 0 vertex 1 0 0 vertex 0 1 0 endloop endfacet ";
+  EXPECT_EQ(namesOf(readStl(solid("a", facets + "\n"))), "a TTriangleModel 30000\n");
+}
+
 }  // namespace
 }  // namespace allpairs::test

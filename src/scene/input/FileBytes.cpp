@@ -102,7 +102,12 @@ void removeByteOrderMark(std::string& text) {
 
 void makeLines(std::string& text) {
   removeByteOrderMark(text);
-  if (text.find('\n') == std::string::npos) std::replace(text.begin(), text.end(), '\r', '\n');
+  for (std::size_t at = text.find('\r'); at != std::string::npos; at = text.find('\r', at)) {
+    const std::size_t next = std::min(text.find_first_not_of('\r', at), text.size());
+    if (next == text.size() || text[next] != '\n')
+      std::fill(text.begin() + static_cast<std::ptrdiff_t>(at), text.begin() + static_cast<std::ptrdiff_t>(next), '\n');
+    at = next;
+  }
 }
 
 std::string lowerExtension(const std::filesystem::path& path) { return lowerCase(path.extension().string()); }

@@ -51,7 +51,7 @@ void requireFile(const std::filesystem::path& path);
 /// Takes off the mark with which some programs begin a text in UTF-8.
 void removeByteOrderMark(std::string& text);
 
-/// Likewise, and ends the lines of a text in \n where they end in \r alone.
+/// Likewise, and ends the lines of a text in \n that end in \r alone, be it all of them or some.
 void makeLines(std::string& text);
 
 /// The extension in lower case, with its dot: ".npy".

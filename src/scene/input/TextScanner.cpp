@@ -2,25 +2,12 @@
 #include "input/TextScanner.h"
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 
 #include "allpairs/scene/FileError.h"
 #include "input/FileBytes.h"
 #include "input/Words.h"
 
 namespace allpairs::scene {
-
-std::optional<double> scannedNumber(std::string_view word) {
-  if (word.starts_with('+')) word.remove_prefix(1);
-  double value{};
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (error == std::errc::result_out_of_range &&
-      (word.find("e-") != std::string_view::npos || word.find("E-") != std::string_view::npos))
-    return 0;
-  if (error != std::errc{} || end != word.data() + word.size() || !std::isfinite(value)) return std::nullopt;
-  return value;
-}
 
 TextScanner::TextScanner(const std::filesystem::path& path) : m_path(path), m_text(readText(path)) {}
 
@@ -41,7 +28,7 @@ std::string_view TextScanner::wordInLine() {
 double TextScanner::number() {
   const auto word = this->word();
   if (word.empty()) fail("a number is missing");
-  const auto value = scannedNumber(word);
+  const auto value = parseFinite(word);
   if (!value) fail("what stands here is not a finite number");
   return *value;
 }
@@ -67,6 +54,15 @@ void TextScanner::expect(std::string_view wanted) {
 void TextScanner::skipLine() {
   const auto end = m_text.find('\n', m_position);
   m_position = end == std::string::npos ? m_text.size() : end + 1;
+}
+
+void TextScanner::skipComments() {
+  for (;; skipLine()) {
+    const auto begin = std::min(m_text.find_first_not_of(" \t\r\f\v\n", m_position), m_text.size());
+    const bool isAtLineBegin = begin == 0 || m_text[begin - 1] == '\n';
+    if (!isAtLineBegin || begin == m_text.size() || m_text[begin] != '#') return;
+    m_position = begin;
+  }
 }
 
 std::string_view TextScanner::bytes(std::size_t count) {

@@ -5,14 +5,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <string_view>
 
 namespace allpairs::scene {
-
-/// The finite number that a word is, one too small for a double 0; nothing for any other word.
-[[nodiscard]] std::optional<double> scannedNumber(std::string_view word);
 
 /// Reads a text word by word and says at which line it went wrong. What stands there it does not repeat: a scene may
 /// name any file for a mesh, and its messages must not show what is in it.
@@ -31,8 +27,15 @@ class TextScanner {
   std::int64_t integer();
   void expect(std::string_view word);
   void skipLine();
+  /// Skips blanks and the lines that begin with '#'.
+  void skipComments();
   /// Takes exactly that many bytes; throws if there are fewer.
   std::string_view bytes(std::size_t count);
+
+  /// How many bytes lie before what is read next.
+  [[nodiscard]] std::size_t position() const { return m_position; }
+  /// Goes back, or on, to such a place.
+  void seek(std::size_t position) { m_position = position; }
 
   [[noreturn]] void fail(const std::string& problem) const;
 

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cstdlib>
+#include <cmath>
+#include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -72,15 +74,40 @@ template <class Number>
   return end == text.data() + text.size() ? problem : std::errc::invalid_argument;
 }
 
-/// The number that is all of the text, in any form that C knows but hexadecimal; NaN and infinities included.
-[[nodiscard]] inline std::optional<double> parseNumber(std::string_view text) {
+/// Whether a number that std::from_chars finds out of range is so because it is near zero. std::strtod would tell, but in
+/// the locale of the program, in which a point may mean nothing.
+[[nodiscard]] inline bool isNearZero(std::string_view number) {
+  const std::size_t end = std::min(number.find_first_of("eE"), number.size());
+  const std::string_view digits = number.substr(0, end);
+  std::string_view power = number.substr(std::min(end + 1, number.size()));
+  if (power.starts_with('+')) power.remove_prefix(1);
+  std::int32_t exponent = 0;
+  if (parseWhole(power, exponent) == std::errc::result_out_of_range) return power.starts_with('-');
+  const auto point = static_cast<std::int64_t>(std::min(digits.find('.'), digits.size()));
+  const auto first = static_cast<std::int64_t>(std::min(digits.find_first_of("123456789"), digits.size()));
+  return exponent + point - first < 0;
+}
+
+/// The number that is all of the text, in any form that C knows but hexadecimal; NaN and infinities included. What is
+/// too small for the type is 0, what is too large an infinity.
+template <class Number = double>
+[[nodiscard]] std::optional<Number> parseNumber(std::string_view text) {
   if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
-  double value = 0.0;
+  Number value{};
   const std::errc problem = parseWhole(text, value);
   if (problem == std::errc::invalid_argument) return std::nullopt;
-  // from_chars leaves the value alone where it is too large or too small for a double.
-  if (problem == std::errc::result_out_of_range) return std::strtod(std::string(text).c_str(), nullptr);
+  if (problem == std::errc::result_out_of_range) {  // which leaves the value alone
+    value = isNearZero(text) ? Number{} : std::numeric_limits<Number>::infinity();
+    if (text.starts_with('-')) value = -value;
+  }
   return value;
+}
+
+/// The same for finite numbers only.
+template <class Number = double>
+[[nodiscard]] std::optional<Number> parseFinite(std::string_view text) {
+  const auto value = parseNumber<Number>(text);
+  return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
 /// All words of a text in which lines mean nothing. A stream would end early where there is no memory for one.

@@ -94,7 +94,7 @@ class ObjReader final : ObjParser {
 
   /// Shapes that would be missing; what else there is tells of looks.
   void passOver(std::string_view keyword) override {
-    constexpr std::array<std::string_view, 8> kShapes{"bsp", "bzp", "cdc", "cdp", "curv", "fo", "res", "surf"};
+    constexpr std::array<std::string_view, 9> kShapes{"bsp", "bzp", "call", "cdc", "cdp", "curv", "fo", "res", "surf"};
     if (std::find(kShapes.begin(), kShapes.end(), keyword) == kShapes.end()) return;
     fail("'" + std::string(keyword) + "' is not read: export the file with faces and lines alone");
   }

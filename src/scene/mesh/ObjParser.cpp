@@ -23,7 +23,8 @@ void ObjParser::forEachLine(std::string_view text, const Visit& visit) const {
   std::string joined;
   for (std::size_t number = 1; !text.empty(); ++number) {
     std::string_view line = trimmed(takeLine(text));
-    const bool goesOn = m_syntax.joinsLines && line.ends_with('\\') && !text.empty();
+    const bool isComment = joined.empty() && line.starts_with('#');  // which may end in the name of a folder
+    const bool goesOn = m_syntax.joinsLines && !isComment && line.ends_with('\\') && !text.empty();
     if (goesOn) line.remove_suffix(1);
     if (goesOn || !joined.empty()) {
       joined.append(line).append(" ");

@@ -101,7 +101,7 @@ class PlyReader {
       : m_path(path), m_scope(scope), m_header(parsePlyHeader(text, path)), m_body(text, m_header, path) {}
 
   std::vector<MeshObject> read() {
-    checkFaces();
+    checkElements();
     for (const PlyElement& element : m_header.elements) {
       if (element.properties.empty()) continue;  // takes no room in the file, however many there are
       for (std::uint64_t row = 0; row < element.count; ++row) {
@@ -130,12 +130,26 @@ class PlyReader {
     return isNamed && property.countType && element.name != "vertex";
   }
 
-  void checkFaces() const {
+  static bool isEnd(const PlyProperty& property, std::string_view name) {
+    return property.name == name && !property.countType;
+  }
+
+  /// Faces, strips and edges whose vertices go by other names would be missing, or lie at the first vertex.
+  void checkElements() const {
     for (const PlyElement& element : m_header.elements) {
-      const bool hasCorners = std::any_of(element.properties.begin(), element.properties.end(),
-                                          [&](const PlyProperty& property) { return isCorners(element, property); });
-      if (element.name != "face" || element.count == 0 || hasCorners) continue;
-      throw FileError(m_path, "its faces have no list 'vertex_indices'");
+      if (element.count == 0) continue;
+      const auto has = [&](const auto& isWanted) {
+        return std::any_of(element.properties.begin(), element.properties.end(), isWanted);
+      };
+      const bool hasCorners = has([&](const PlyProperty& property) { return isCorners(element, property); });
+      if (element.name == "face" && !hasCorners) throw FileError(m_path, "its faces have no list 'vertex_indices'");
+      if (element.name == "tristrips" && !hasCorners)
+        throw FileError(m_path, "its strips of triangles have no list 'vertex_indices'");
+      const auto hasEnd = [&](std::string_view name) {
+        return has([name](const PlyProperty& property) { return isEnd(property, name); });
+      };
+      if (element.name == "edge" && !(hasEnd("vertex1") && hasEnd("vertex2")))
+        throw FileError(m_path, "its edges have no numbers 'vertex1' and 'vertex2'");
     }
   }
 

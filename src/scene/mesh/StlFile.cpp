@@ -107,7 +107,7 @@ class TextReader {
         addPosition(line);
       } else if (keyword == "facet") {
         requireCorners(0);
-        line.remove_prefix(std::min(line.size(), lowerCase(line).find("outer")));  // the normal means nothing
+        while (!word.empty() && lowerCase(word) != "outer") word = takeWord(line);  // the normal means nothing
       } else if (keyword == "endfacet") {
         requireCorners(3);
         addTriangle(m_objects.back());

@@ -68,7 +68,7 @@ TEST_F(SofaMeshFile, ObjNamesTheLineOfWhatIsWrong) {
   EXPECT_THAT(problem("a.obj", "v 0 0 nan\n"), HasSubstr("not a finite number"));
   EXPECT_THAT(problem("a.obj", "v 0 0 1e999\n"), HasSubstr("not a finite number"));
   EXPECT_THAT(problem("a.obj", "v 0 0 0\nf 1 2 3\n"), HasSubstr("a point that isn't there"));
-  EXPECT_THAT(problem("a.obj", "v 0 0 0\nv 1 0 0\nf 1 2 3\n"), HasSubstr("a point that isn't there"));
+  EXPECT_THAT(problem("a.obj", "v 0 0 0\nv 1 0 0\nf 1 2 3\n# end\n"), HasSubstr("a.obj:3: a face names a point that"));
   EXPECT_THAT(problem("a.obj", "v 0 0 0\nf 0 1 1\n"), HasSubstr("count from 1"));
   EXPECT_THAT(problem("a.obj", "v 0 0 0\nf -2 1 1\n"), HasSubstr("before the first point"));
   EXPECT_THAT(problem("a.obj", "v 0 0 0\nf 99999999999999999999 1 1\n"), HasSubstr("not an integer"));
@@ -196,6 +196,31 @@ TEST_F(SofaMeshFile, VtkNamesWhatIsWrong) {
               HasSubstr("float and double only"));
   EXPECT_THAT(problem("a.vtu", std::string{kVtuHead} + "</Cells></Piece><Piece/></UnstructuredGrid></VTKFile>"),
               HasSubstr("several pieces"));
+}
+
+TEST_F(SofaMeshFile, VtkNamesTheLineOfACellEvenWherePointsComeLater) {
+  const std::string head = "# vtk DataFile Version 2.0\nx\nASCII\nDATASET POLYDATA\n";
+  const std::string points = "POINTS 3 float\n0 0 0\n1 0 0\n0 1 0\n";
+  EXPECT_THAT(problem("a.vtk", head + points + "POLYGONS 2 8\n3 0 1 2\n3 0 1 9\nPOINT_DATA 3\n"),
+              HasSubstr("a.vtk:11: a cell names a missing point"));
+  EXPECT_THAT(problem("a.vtk", head + "POLYGONS 2 8\n3 0 1 2\n9 0 1 2\n" + points),
+              HasSubstr("a.vtk:7: the list of cells is cut off"));
+}
+
+TEST_F(SofaMeshFile, OffMayHaveComments) {
+  const auto read =
+      mesh("a.off", "OFF\n# made by hand\n3 1 0\n# points\n0 0 0\n1 0 0\n# the last\n0 1 0\n\n# a face\n3 0 1 2\n");
+  EXPECT_THAT(read.positions, SizeIs(3));
+  EXPECT_EQ(read.triangles, (Elements<3>{{0, 1, 2}}));
+}
+
+TEST_F(SofaMeshFile, NumbersOutOfRangeAreToldApartByAllOfTheirDigits) {
+  const std::string zeros(400, '0');
+  EXPECT_THAT(mesh("a.off", "OFF 1 0 0\n1.5e-400 -0." + zeros + "1 " + "0." + zeros + "1e+40").positions,
+              ElementsAre(Vec3{0, 0, 0}));
+  EXPECT_THAT(problem("a.off", "OFF 1 0 0\n0 0 1" + zeros + "e-5"), HasSubstr("not a finite number"));
+  EXPECT_THAT(problem("a.off", "OFF 1 0 0\n0 0 1e99999999999999999999"), HasSubstr("not a finite number"));
+  EXPECT_THAT(problem("a.off", "OFF 1 0 0\n0 0 +-1"), HasSubstr("not a finite number"));
 }
 
 TEST_F(SofaMeshFile, OffAndTrianAreRead) {

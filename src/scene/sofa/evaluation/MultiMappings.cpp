@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <cstdlib>
 
 #include "input/Words.h"
 #include "sofa/evaluation/Components.h"
@@ -40,7 +39,7 @@ std::optional<double> massOf(const Component& bodies, std::size_t count) {
   const auto* each = total != nullptr ? total : attributes.find("vertexMass");
   if (mass->type != "UniformMass" || each == nullptr || each->starts_with('@') || attributes.has("filename"))
     throw Unplaceable(*mass, "masses of this kind are not known to this reader");
-  const double value = std::strtod(each->c_str(), nullptr);  // Of a rigid body more numbers follow.
+  const double value = leadingNumber(*each);  // Of a rigid body more numbers follow.
   return total != nullptr ? value / static_cast<double>(count) : value;
 }
 

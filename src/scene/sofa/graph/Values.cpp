@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <system_error>
 
 #include "input/Words.h"
 
@@ -13,23 +12,6 @@ namespace {
 
 constexpr double kMaxIndex = 1e12;
 constexpr double kMaxRange = 50'000'000;  // "0-4000000000" is a mistake, not a list.
-
-template <class Number>
-std::optional<Number> parseAny(std::string_view word) {
-  if (word.starts_with('+')) word.remove_prefix(1);
-  Number value{};
-  const auto error = parseWhole(word, value);
-  // Too small for the type is zero enough; too large is not a number that a scene can use.
-  if (error == std::errc::result_out_of_range && std::abs(std::strtod(std::string{word}.c_str(), nullptr)) < 1)
-    return 0;
-  if (error != std::errc{}) return std::nullopt;
-  return value;
-}
-
-std::optional<double> parseFinite(std::string_view word) {
-  const auto value = parseAny<double>(word);
-  return value && std::isfinite(*value) ? value : std::nullopt;
-}
 
 bool isDigit(char c) { return c >= '0' && c <= '9'; }
 bool isSign(char c) { return c == '+' || c == '-'; }
@@ -158,9 +140,13 @@ std::optional<bool> parseBool(std::string_view text) {
 
 std::optional<double> parseWholeFloat(std::string_view text) {
   while (!text.empty() && isBlankOrLineEnd(text.front())) text.remove_prefix(1);
-  const auto value = parseAny<float>(text);
-  if (!value || !std::isfinite(*value)) return std::nullopt;
-  return static_cast<double>(*value);
+  const auto value = parseFinite<float>(text);
+  return value ? std::optional{static_cast<double>(*value)} : std::nullopt;
+}
+
+double leadingNumber(std::string_view text) {
+  const auto word = takeWord(text, isBlankOrLineEnd);
+  return word.empty() ? 0 : parseFinite(word.substr(0, numberLength(word))).value_or(0);
 }
 
 }  // namespace allpairs::scene::sofa

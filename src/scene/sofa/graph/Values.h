@@ -43,4 +43,7 @@ enum class WordEnd { Read, Dropped };
 /// A text that is one float32 from its first character to its last; nothing otherwise.
 [[nodiscard]] std::optional<double> parseWholeFloat(std::string_view text);
 
+/// The number that a text begins with, as a stream of C++ reads it; 0 where it begins with none.
+[[nodiscard]] double leadingNumber(std::string_view text);
+
 }  // namespace allpairs::scene::sofa

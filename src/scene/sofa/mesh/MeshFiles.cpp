@@ -51,14 +51,20 @@ Mesh readSpheres(const std::filesystem::path& path) {
   return mesh;
 }
 
+/// Lines that begin with '#' are comments, as in SOFA: before the counts, a point, or a face.
 Mesh readOff(const std::filesystem::path& path) {
   TextScanner text(path);
   text.expect("OFF");
+  text.skipComments();
   const auto points = text.integer(), faces = text.integer();
   text.integer();
   Mesh mesh;
-  for (std::int64_t i = 0; i < points; ++i) mesh.positions.push_back(text.point());
+  for (std::int64_t i = 0; i < points; ++i) {
+    text.skipComments();
+    mesh.positions.push_back(text.point());
+  }
   for (std::int64_t i = 0; i < faces; ++i) {
+    text.skipComments();
     std::vector<Index> corners;
     for (auto left = text.integer(); left > 0; --left) corners.push_back(readIndex(text, mesh.positions.size()));
     if (corners.size() == 3) mesh.triangles.push_back({corners[0], corners[1], corners[2]});

@@ -4,7 +4,6 @@
 #include <span>
 
 #include "input/FileBytes.h"
-#include "input/TextScanner.h"
 #include "input/Words.h"
 #include "mesh/ObjParser.h"
 #include "sofa/mesh/Mesh.h"
@@ -20,8 +19,10 @@ class ObjReader final : ObjParser {
 
   Mesh read(std::string_view text) {
     parse(text);
-    m_lastLine = static_cast<std::size_t>(std::ranges::count(text, '\n')) + 1;
-    if (m_mesh.positions.empty()) failAtEnd("this is no Wavefront mesh: it has no line of 'v' with a point");
+    if (m_mesh.positions.empty()) {
+      const auto lastLine = static_cast<std::size_t>(std::ranges::count(text, '\n')) + 1;
+      failAt(lastLine, "this is no Wavefront mesh: it has no line of 'v' with a point");
+    }
     if (m_options.splitSeams) splitSeams();
     for (const auto& face : m_faces) addFace(face);
     return std::move(m_mesh);
@@ -33,7 +34,7 @@ class ObjReader final : ObjParser {
     for (auto& coordinate : position) {
       const auto word = takeWord(coordinates, isBlank);
       if (word.empty()) fail("a number is missing");
-      const auto value = scannedNumber(word);
+      const auto value = parseFinite(word);
       if (!value) fail("what stands here is not a finite number");
       coordinate = *value;
     }
@@ -41,7 +42,7 @@ class ObjReader final : ObjParser {
   }
 
   void addElement(char /*kind*/, std::span<const ObjCorner> corners) override {
-    if (corners.size() >= 2) m_faces.emplace_back(corners.begin(), corners.end());
+    if (corners.size() >= 2) m_faces.push_back({line(), {corners.begin(), corners.end()}});
   }
 
   void beginObject(std::string_view /*keyword*/, std::string_view /*name*/) override {}
@@ -59,18 +60,26 @@ class ObjReader final : ObjParser {
     }
   }
 
-  [[noreturn]] void failAtEnd(const std::string& problem) const { failAt(m_lastLine, problem); }
+  /// A face, or a line, and where it stands: points may come after it.
+  struct Face {
+    std::size_t line;
+    std::vector<ObjCorner> corners;
+  };
 
-  std::size_t pointOf(const ObjCorner& corner, std::size_t count) const {
-    if (static_cast<std::size_t>(corner.position) >= count) failAtEnd("a face names a point that isn't there");
-    return static_cast<std::size_t>(corner.position);
+  std::size_t pointOf(const Face& face, std::size_t corner, std::size_t count) const {
+    const auto point = static_cast<std::size_t>(face.corners[corner].position);
+    if (point >= count) failAt(face.line, "a face names a point that isn't there");
+    return point;
   }
 
   /// Renumbers the points so that each has one texture coordinate and one normal; points of no face disappear.
   void splitSeams() {
     std::vector<std::map<std::pair<std::int64_t, std::int64_t>, std::int64_t>> uses(m_mesh.positions.size());
+    const auto useOf = [&](const Face& face, std::size_t i) -> std::int64_t& {
+      return uses[pointOf(face, i, uses.size())][{face.corners[i].texture, face.corners[i].normal}];
+    };
     for (const auto& face : m_faces)
-      for (const auto& corner : face) uses[pointOf(corner, uses.size())][{corner.texture, corner.normal}] = 0;
+      for (std::size_t i = 0; i < face.corners.size(); ++i) useOf(face, i) = 0;
     std::vector<Vec3> positions;
     for (std::size_t i = 0; i < uses.size(); ++i)
       for (auto& [combination, index] : uses[i]) {
@@ -78,12 +87,13 @@ class ObjReader final : ObjParser {
         positions.push_back(m_mesh.positions[i]);
       }
     for (auto& face : m_faces)
-      for (auto& corner : face) corner.position = uses[pointOf(corner, uses.size())][{corner.texture, corner.normal}];
+      for (std::size_t i = 0; i < face.corners.size(); ++i) face.corners[i].position = useOf(face, i);
     m_mesh.positions = std::move(positions);
   }
 
-  void addFace(std::span<const ObjCorner> corners) {
-    const auto at = [&](std::size_t i) { return static_cast<Index>(pointOf(corners[i], m_mesh.positions.size())); };
+  void addFace(const Face& face) {
+    const auto& corners = face.corners;
+    const auto at = [&](std::size_t i) { return static_cast<Index>(pointOf(face, i, m_mesh.positions.size())); };
     if (corners.size() == 2) {
       m_mesh.edges.push_back(sorted<2>({at(0), at(1)}));
     } else if (corners.size() == 4 && !m_options.triangulate) {
@@ -95,8 +105,7 @@ class ObjReader final : ObjParser {
 
   ObjOptions m_options;
   Mesh m_mesh;
-  std::size_t m_lastLine = 0;
-  std::vector<std::vector<ObjCorner>> m_faces;
+  std::vector<Face> m_faces;
 };
 
 }  // namespace

@@ -25,24 +25,29 @@ struct CellLists {
   std::vector<std::int64_t> types;  ///< Empty for surfaces.
 };
 
+/// Calls fail(problem, place), which throws, with the place of what is wrong in the list of cells.
 template <class Fail>
 void addCells(const CellLists& lists, Mesh& mesh, const Fail& fail) {
   VtkCells cells(mesh);
   std::vector<Index> corners;
   std::size_t cell = 0;
   for (std::size_t i = 0; i < lists.cells.size(); ++cell) {
+    const std::size_t begin = i;
     const auto count = lists.cells[i++];
-    if (count < 0 || static_cast<std::size_t>(count) > lists.cells.size() - i) fail("the list of cells is cut off");
+    if (count < 0 || static_cast<std::size_t>(count) > lists.cells.size() - i)
+      fail("the list of cells is cut off", begin);
     corners.clear();
     for (std::int64_t left = count; left > 0; --left) {
-      const auto index = lists.cells[i++];
-      if (index < 0 || static_cast<std::size_t>(index) >= mesh.positions.size()) fail("a cell names a missing point");
+      const auto index = lists.cells[i];
+      if (index < 0 || static_cast<std::size_t>(index) >= mesh.positions.size())
+        fail("a cell names a missing point", i);
+      ++i;
       corners.push_back(static_cast<Index>(index));
     }
     if (lists.types.empty())
       cells.addPolygon(corners);
     else if (cell >= lists.types.size() || !cells.add(lists.types[cell], corners))
-      fail("a cell does not have the points or the type that it needs");
+      fail("a cell does not have the points or the type that it needs", begin);
   }
 }
 
@@ -61,11 +66,18 @@ class LegacyVtkReader {
       m_text.fail("only the datasets POLYDATA and UNSTRUCTURED_GRID can be read");
     for (auto word = m_text.word(); !word.empty() && word != "POINT_DATA" && word != "CELL_DATA"; word = m_text.word())
       readSection(word);
-    addCells(m_lists, m_mesh, [this](const char* problem) { m_text.fail(problem); });
+    addCells(m_lists, m_mesh, [this](const char* problem, std::size_t place) { failInCells(problem, place); });
     return std::move(m_mesh);
   }
 
  private:
+  /// Points may come after the cells, which are checked at the end: names the line on which the number of that place is.
+  [[noreturn]] void failInCells(const char* problem, std::size_t place) {
+    m_text.seek(m_cells);
+    for (std::size_t i = 0; i <= place; ++i) m_binary ? (void)bigEndian<std::int32_t>() : (void)m_text.integer();
+    m_text.fail(problem);
+  }
+
   void readSection(std::string_view name) {
     if (name == "POINTS") return readPoints();
     if (name != "POLYGONS" && name != "CELLS" && name != "CELL_TYPES" && name != "LINES" && name != "VERTICES") return;
@@ -73,6 +85,7 @@ class LegacyVtkReader {
     auto count = this->count();
     if (name != "CELL_TYPES") count = this->count();
     m_text.skipLine();
+    if (kept && name != "CELL_TYPES") m_cells = m_text.position();
     auto values = integers(count);
     if (kept) (name == "CELL_TYPES" ? m_lists.types : m_lists.cells) = std::move(values);
   }
@@ -114,6 +127,7 @@ class LegacyVtkReader {
   bool m_binary = false;
   Mesh m_mesh;
   CellLists m_lists;
+  std::size_t m_cells = 0;  ///< Where in the text the list of cells begins.
 };
 
 /// The XML format with its arrays in text.
@@ -137,7 +151,8 @@ class XmlVtkReader {
     const auto points = numbers(piece.child("Points").child("DataArray"));
     for (std::size_t i = 0; i + 2 < points.size(); i += 3)
       m_mesh.positions.push_back({points[i], points[i + 1], points[i + 2]});
-    addCells(lists(piece.child(grid ? "Cells" : "Polys")), m_mesh, [this](const char* problem) { fail(problem); });
+    addCells(lists(piece.child(grid ? "Cells" : "Polys")), m_mesh,
+             [this](const char* problem, std::size_t) { fail(problem); });
     return std::move(m_mesh);
   }
 
