@@ -169,6 +169,14 @@ TEST(Mesh, FilesCutAnywhereAreReadOrRefused) {
   EXPECT_EQ(remarked.remarks[1].reason,
             "its morph targets are passed over: the vertices are where they are without them");
   EXPECT_TRUE(read("car.gltf", kGltf).remarks.empty());
+  std::string more = kGltf;
+  more.replace(more.find("\"scenes\": ["), 11, "\"animations\": [{}], \"scenes\": [{}, ");
+  more.replace(more.find("\"scene\": 0"), 10, "\"scene\": 1");
+  const scene::Scene animated = read("car.gltf", more);
+  ASSERT_EQ(animated.remarks.size(), 2U);
+  EXPECT_EQ(animated.remarks[0].subject, "car.gltf");
+  EXPECT_EQ(animated.remarks[0].reason, "its animations are passed over: nodes are where they are without them");
+  EXPECT_EQ(animated.remarks[1].reason, "1 of its 2 scenes is passed over: only the one to be shown is read");
   std::string odd = kGltf;
   odd.replace(odd.find("\"count\": 3"), 10, "\"count\": 3, \"normalized\": 0");
   expectProblem("odd.gltf", odd, "odd.gltf: accessor 0: 'normalized' is neither true nor false");

@@ -39,7 +39,7 @@ void checkFrames(const NpyHeader& header, const Path& path, const std::string& p
 }  // namespace
 
 bool isBoxFramesFile(const Path& path) {
-  if (path.extension() != ".npy") return false;
+  if (lowerExtension(path) != ".npy") return false;
   InputFile file(path);
   return readNpyHeader(file, path).shape.size() == 3;
 }

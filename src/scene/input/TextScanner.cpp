@@ -2,6 +2,7 @@
 #include "input/TextScanner.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "allpairs/scene/FileError.h"
 #include "input/FileBytes.h"
@@ -9,7 +10,9 @@
 
 namespace allpairs::scene {
 
-TextScanner::TextScanner(const std::filesystem::path& path) : m_path(path), m_text(readText(path)) {}
+TextScanner::TextScanner(const std::filesystem::path& path) : TextScanner(path, readText(path)) {}
+
+TextScanner::TextScanner(const std::filesystem::path& path, std::string text) : m_path(path), m_text(std::move(text)) {}
 
 std::string_view TextScanner::word() {
   auto text = rest();

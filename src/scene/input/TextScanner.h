@@ -16,6 +16,8 @@ class TextScanner {
  public:
   /// Reads the whole file; throws FileError.
   explicit TextScanner(const std::filesystem::path& path);
+  /// The same of a text that was read.
+  TextScanner(const std::filesystem::path& path, std::string text);
 
   /// The next word, or an empty one at the end of the file.
   std::string_view word();

@@ -67,10 +67,12 @@ struct MeshFrame {
 [[nodiscard]] std::vector<MeshObject> readStlObjects(const std::filesystem::path& path, ReadScope& scope);
 
 /// Reads a glTF 2.0 file, as JSON or GLB: an object for each node of its scene that shows a mesh, with the node's
-/// transform applied in double. Skins and morph targets are passed over, with a remark, and so are animations.
+/// transform applied in double. Skins and morph targets are passed over, with a remark of the object; animations and
+/// other scenes too, of which `passedOver` says what remarks say.
 ///
 /// Bad input: throws FileError; so do a node with two parents and a mesh that is compressed.
-[[nodiscard]] std::vector<MeshObject> readGltfObjects(const std::filesystem::path& path, ReadScope& scope);
+[[nodiscard]] std::vector<MeshObject> readGltfObjects(const std::filesystem::path& path, ReadScope& scope,
+                                                      std::vector<std::string>& passedOver);
 
 /// Reads what else Assimp reads: an object for each node that shows a mesh, with the node's transform applied in double
 /// to positions that Assimp gives as float32. Coordinates are those of the file: what Assimp does to turn y up and to

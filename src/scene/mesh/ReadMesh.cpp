@@ -31,7 +31,8 @@ namespace fs = std::filesystem;
 /// Of a folder that has other files to read; the other commands do not take it.
 constexpr const char* kPartialHint = "; --partial of detect, info, view and report leaves it out";
 
-std::vector<MeshObject> readObjects(const fs::path& path, ReadScope& scope, MeshFrame& frame) {
+std::vector<MeshObject> readObjects(const fs::path& path, ReadScope& scope, MeshFrame& frame,
+                                    std::vector<std::string>& passedOver) {
   scope.admit(path);
   std::error_code ignored;
   if (fs::file_size(path, ignored) == 0) throw FileError(path, "is empty");
@@ -42,7 +43,7 @@ std::vector<MeshObject> readObjects(const fs::path& path, ReadScope& scope, Mesh
   if (extension == ".off") return readOffObjects(path, scope);
   if (extension != ".gltf" && extension != ".glb") return readAssimpObjects(path, scope, frame);
   frame = {.up = 2, .metresPerUnit = 1.0};  // as its specification has it
-  return readGltfObjects(path, scope);
+  return readGltfObjects(path, scope, passedOver);
 }
 
 /// The models of an object's triangles, its lines and its points, where it has any.
@@ -212,8 +213,9 @@ void readInto(Scene& scene, const fs::path& path, ReadScope& scope) {
   const std::size_t models = scene.models.size();
   const std::size_t owners = scene.owners.size();
   MeshFrame frame;
+  std::vector<std::string> passedOver;
   try {
-    std::vector<MeshObject> objects = readObjects(path, scope, frame);
+    std::vector<MeshObject> objects = readObjects(path, scope, frame, passedOver);
     for (MeshObject& object : objects) {
       if (object.name.empty()) object.name = path.filename().string();
       names.note(object.name);
@@ -233,6 +235,8 @@ void readInto(Scene& scene, const fs::path& path, ReadScope& scope) {
     if (dynamic_cast<const InvalidArgument*>(&problem) != nullptr) throw FileError(path, problem.what());
     throw;
   }
+  for (std::string& reason : passedOver)
+    scene.remarks.push_back({.file = path, .subject = path.filename().string(), .reason = std::move(reason)});
   noteFrame(scene, path, frame.up, frame.metresPerUnit > 0.0 ? std::optional(frame.metresPerUnit) : std::nullopt);
 }
 

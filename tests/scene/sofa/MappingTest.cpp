@@ -473,5 +473,11 @@ TEST_F(SofaMapping, WhatAMappingWritesIsNoPointOfASparseGrid) {
               HasSubstr("sparse grid, which this reader does not compute"));
 }
 
+TEST_F(SofaMapping, AVoidMappingMovesNothing) {
+  EXPECT_THAT(onlyBox(readIn("<MechanicalObject position='9 9 9'/><Node><MechanicalObject position='1 2 3'/>"
+                             "<VoidMapping/><PointModel/></Node>")),
+              IsBox(Corners{1, 2, 3, 1, 2, 3}));
+}
+
 }  // namespace
 }  // namespace allpairs::scene::sofa

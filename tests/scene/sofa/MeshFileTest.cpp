@@ -198,6 +198,44 @@ TEST_F(SofaMeshFile, VtkNamesWhatIsWrong) {
               HasSubstr("several pieces"));
 }
 
+TEST_F(SofaMeshFile, OfPolygonsInXmlTrianglesAndQuadsAreFaces) {
+  const std::string vtp =
+      "<VTKFile type='PolyData'><PolyData><Piece><Points><DataArray>0 0 0 1 0 0 2 1 0 1 2 0 0 1 0</DataArray></Points>"
+      "<Polys><DataArray Name='connectivity'>0 1 2 3 4 0 1 0 1 2 0 1 2 3</DataArray>"
+      "<DataArray Name='offsets'>5 7 10 14</DataArray></Polys></Piece></PolyData></VTKFile>";
+  const auto m = mesh("a.vtp", vtp);
+  EXPECT_THAT(m.edges, ElementsAre(Line{0, 1}));
+  EXPECT_THAT(m.triangles, ElementsAre(Triangle{0, 1, 2}));
+  EXPECT_THAT(m.quads, ElementsAre(Four{0, 1, 2, 3}));
+  EXPECT_EQ(m.passedOver, 1U);
+  const std::string scene =
+      "<MeshVTKLoader name='l' filename='a.vtp'/><MeshTopology src='@l'/><MechanicalObject/>"
+      "<TriangleModel/>";
+  m_sofa = SofaVersion::Sofa2006;
+  EXPECT_THAT(complaintIn(scene), HasSubstr("SOFA 20.06 does not read PolyData"));
+  m_sofa = SofaVersion::Sofa2612;
+  const auto read = readIn(scene);
+  EXPECT_THAT(read.models.at(0).triangles, SizeIs(3));
+  ASSERT_THAT(read.warnings, testing::Not(testing::IsEmpty()));
+  EXPECT_EQ(read.warnings.back().reason,
+            "1 element of its file is of a kind that SOFA does not read, and is passed over");
+}
+
+TEST_F(SofaMeshFile, ElementsOfKindsThatSofaDoesNotReadAreCounted) {
+  const std::string six = "6\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n5 1 0 1\n6 0 1 1\n";
+  const auto gmsh =
+      mesh("a.msh", "$MeshFormat\n2 0 8\n$EndMeshFormat\n$Nodes\n" + six +
+                        "$EndNodes\n$Elements\n3\n1 2 0 1 2 3\n2 6 0 1 2 3 4 5 6\n3 15 0 1\n$EndElements\n");
+  EXPECT_THAT(gmsh.triangles, SizeIs(1));
+  EXPECT_EQ(gmsh.passedOver, 1U) << "a prism; a point is no element";
+  const auto vtk = mesh("a.vtk",
+                        "# vtk DataFile Version 3.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 6 float\n"
+                        "0 0 0 1 0 0 0 1 0 0 0 1 1 0 1 0 1 1\nCELLS 4 17\n3 0 1 2\n6 0 1 2 3 4 5\n1 0\n3 0 1 2\n"
+                        "CELL_TYPES 4\n5\n13\n1\n4\n");
+  EXPECT_THAT(vtk.triangles, SizeIs(1));
+  EXPECT_EQ(vtk.passedOver, 2U) << "a prism and a line of several";
+}
+
 TEST_F(SofaMeshFile, VtkNamesTheLineOfACellEvenWherePointsComeLater) {
   const std::string head = "# vtk DataFile Version 2.0\nx\nASCII\nDATASET POLYDATA\n";
   const std::string points = "POINTS 3 float\n0 0 0\n1 0 0\n0 1 0\n";

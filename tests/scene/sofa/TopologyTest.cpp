@@ -391,5 +391,12 @@ TEST_F(SofaTopology, ASubsetIsWhatLiesInBoxesOrSpheres) {
   EXPECT_THAT(complaintIn(subset(box + " tetrahedraInput='0'", "InROI")), HasSubstr("cannot compute"));
 }
 
+TEST_F(SofaTopology, ASparseGridOfCellsOfNegativeWidthIsNamed) {
+  write("cube.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 2 4\nf 1 3 4\nf 2 3 4\n");
+  EXPECT_THAT(complaintIn("<SparseGridTopology n='4 4 4' fileTopology='cube.obj' cellWidth='-0.25'/>"
+                          "<MechanicalObject/><PointModel/>"),
+              HasSubstr("points along an axis is none"));
+}
+
 }  // namespace
 }  // namespace allpairs::scene::sofa

@@ -18,6 +18,8 @@ class Evaluation;
 // One of these for each kind of component; Evaluation asks them and remembers, and they ask it for what they need.
 
 [[nodiscard]] Mesh loadMesh(Evaluation& evaluation, const Component& loader);
+/// Notes what of a component's file SOFA does not read.
+void warnOfPassedOver(Evaluation& evaluation, const Component& component, const Mesh& mesh);
 [[nodiscard]] Topology buildTopology(Evaluation& evaluation, const Component& component);
 /// Whether a container has elements of the kind of another: SOFA derives its class from that of the other.
 [[nodiscard]] bool canHold(ComponentKind container, ComponentKind element);

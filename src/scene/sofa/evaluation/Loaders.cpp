@@ -170,7 +170,8 @@ Mesh gridMesh(Evaluation& evaluation, const Component& creator) {
 Mesh readBy(Evaluation& evaluation, const Component& loader, const std::filesystem::path& path) {
   if (loader.kind() == ComponentKind::SphereLoader) return readSpheres(path);
   if (loader.type == "MeshGmshLoader") return readGmsh(path);
-  if (loader.type == "MeshVTKLoader") return readVtk(path);
+  if (loader.type == "MeshVTKLoader")
+    return readVtk(path, evaluation.generation() == Generation::Sofa20 ? XmlSurfaces::Refused : XmlSurfaces::Read);
   if (loader.type == "MeshOffLoader") return readOff(path);
   if (loader.type == "MeshTrianLoader") {
     if (evaluation.flag(loader, "trian2", false)) throw Unplaceable(loader, "files of the form trian2 cannot be read");
@@ -210,6 +211,15 @@ Mesh stuffedMesh(Evaluation& evaluation, const Component& engine) {
   return stuffed(surface, how);
 }
 
+void warnOfPassedOver(Evaluation& evaluation, const Component& component, const Mesh& mesh) {
+  if (mesh.passedOver == 0) return;
+  evaluation.warn(component,
+                  std::to_string(mesh.passedOver) +
+                      (mesh.passedOver == 1 ? " element of its file is of a kind that SOFA does not read, and is"
+                                            : " elements of its file are of kinds that SOFA does not read, and are") +
+                      " passed over");
+}
+
 Mesh loadMesh(Evaluation& evaluation, const Component& loader) {
   if (loader.kind() == ComponentKind::MeshTetraStuffing) return stuffedMesh(evaluation, loader);
   const bool isMade = loader.type == "GridMeshCreator";
@@ -217,6 +227,7 @@ Mesh loadMesh(Evaluation& evaluation, const Component& loader) {
   if (!path && !isMade) throw Unplaceable(loader, "it names no file");
   auto mesh = isMade ? gridMesh(evaluation, loader) : readBy(evaluation, loader, *path);
   if (path) checkMesh(mesh, *path);
+  warnOfPassedOver(evaluation, loader, mesh);
   if (loader.kind() == ComponentKind::SphereLoader) {
     transformSpheres(evaluation, loader, mesh);
     return mesh;

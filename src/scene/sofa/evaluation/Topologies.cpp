@@ -39,6 +39,7 @@ Topology meshTopology(Evaluation& evaluation, const Component& component) {
   if (const auto file = meshFileOf(evaluation, component)) {
     topology.given = readMesh(*file);
     checkMesh(topology.given, *file);
+    warnOfPassedOver(evaluation, component, topology.given);
     topology.pointCount = topology.given.positions.size();
   } else {
     topology.given = evaluation.elementLists(component);
@@ -78,7 +79,10 @@ Topology containerTopology(Evaluation& evaluation, const Component& component) {
 
 GridPlace toCounts(const Component& grid, const Vec3& numbers) {
   double product = 1;
-  for (const double n : numbers) product *= std::max(1.0, n);
+  for (const double n : numbers) {
+    if (!(n >= 0)) throw Unplaceable(grid, fmt::format("a grid of {} points along an axis is none", n));
+    product *= std::max(1.0, n);
+  }
   if (!(product <= kMaxPoints))
     throw Unplaceable(grid, fmt::format("a grid of {} points is more than this reader makes", product));
   return {static_cast<std::size_t>(numbers[0]), static_cast<std::size_t>(numbers[1]),

@@ -97,6 +97,7 @@ void addMappings(Table& table) {
   table["Edge2QuadTopologicalMapping"] = {Edge2Quad, {}};
   table["Mesh2PointTopologicalMapping"] = {Mesh2Point, {}};
   table["SubsetTopologicalMapping"] = {Other, {}};  // It relates two topologies that are there, and fills neither.
+  table["VoidMapping"] = {Other, {}};               // It moves nothing.
   for (const auto name : {"RigidMapping", "RigidRigidMapping"}) table[name] = {RigidMapping, name};
   for (const auto name : {"BeamLinearMapping", "BeamLinearMapping_mt"}) table[name] = {BeamLinearMapping, name};
   table["IdentityMapping"] = {IdentityMapping, "IdentityMapping"};

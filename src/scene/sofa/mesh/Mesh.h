@@ -35,13 +35,17 @@ struct Mesh {
   Elements<4> quads;
   Elements<4> tetrahedra;
   Elements<8> hexahedra;
-  std::vector<double> radii;  ///< Of sphere files: one for each point.
+  std::vector<double> radii;   ///< Of sphere files: one for each point.
+  std::size_t passedOver = 0;  ///< Elements in the file that are of kinds that SOFA does not read.
 };
 
 /// Cuts quads in two, from the first corner to the third.
 inline void addHalves(const Elements<4>& quads, Elements<3>& triangles) {
   for (const auto& q : quads) triangles.insert(triangles.end(), {{q[0], q[1], q[2]}, {q[0], q[2], q[3]}});
 }
+
+/// Whether the surfaces of VTK's XML format, PolyData, are read, which SOFA 20.06 and those before it do not.
+enum class XmlSurfaces { Read, Refused };
 
 /// What the loaders of a scene may ask of a Wavefront file.
 struct ObjOptions {
@@ -54,7 +58,7 @@ struct ObjOptions {
 [[nodiscard]] Mesh readObj(const std::filesystem::path& path, const ObjOptions& options = {});
 [[nodiscard]] Mesh readGmsh(const std::filesystem::path& path);
 [[nodiscard]] Mesh readSpheres(const std::filesystem::path& path);
-[[nodiscard]] Mesh readVtk(const std::filesystem::path& path);
+[[nodiscard]] Mesh readVtk(const std::filesystem::path& path, XmlSurfaces surfaces = XmlSurfaces::Read);
 [[nodiscard]] Mesh readOff(const std::filesystem::path& path);
 [[nodiscard]] Mesh readTrian(const std::filesystem::path& path);
 

@@ -30,6 +30,8 @@ class GmshReader {
   }
 
  private:
+  static constexpr std::int64_t kPoint = 15;
+
   void readFormat() {
     const double version = m_text.number();
     constexpr double kBlocks = 4.1;  // 4.0 has its numbers in another order, which SOFA does not read either
@@ -107,7 +109,7 @@ class GmshReader {
 
   static std::int64_t cornersOf(std::int64_t type) {
     switch (type) {
-      case 15:
+      case kPoint:
         return 1;
       case 1:
         return 2;
@@ -161,7 +163,10 @@ class GmshReader {
         m_mesh.tetrahedra.push_back({c[0], c[1], c[2], c[3]});
         addEdges({{0, 1}, {1, 2}, {0, 2}, {0, 3}, {2, 3}, {1, 3}});
         return true;
+      case kPoint:
+        return false;
       default:
+        ++m_mesh.passedOver;
         return false;
     }
   }

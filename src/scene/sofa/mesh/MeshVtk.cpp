@@ -54,7 +54,7 @@ void addCells(const CellLists& lists, Mesh& mesh, const Fail& fail) {
 /// The old format: a header in text, the arrays in text or as big-endian bytes.
 class LegacyVtkReader {
  public:
-  explicit LegacyVtkReader(const std::filesystem::path& path) : m_text(path) {}
+  LegacyVtkReader(const std::filesystem::path& path, std::string text) : m_text(path, std::move(text)) {}
 
   Mesh read() {
     m_text.skipLine();
@@ -133,11 +133,12 @@ class LegacyVtkReader {
 /// The XML format with its arrays in text.
 class XmlVtkReader {
  public:
-  explicit XmlVtkReader(const std::filesystem::path& path) : m_path(path), m_bytes(readText(path)) {
-    const auto result = m_document.load_buffer(m_bytes.data(), m_bytes.size());
+  XmlVtkReader(const std::filesystem::path& path, const std::string& bytes, XmlSurfaces surfaces)
+      : m_path(path), m_surfaces(surfaces) {
+    const auto result = m_document.load_buffer(bytes.data(), bytes.size());
     if (result.status == pugi::status_out_of_memory) throw std::bad_alloc();
     if (!result) {
-      const auto place = LineIndex(m_bytes).at(static_cast<std::size_t>(std::max<std::ptrdiff_t>(result.offset, 0)));
+      const auto place = LineIndex(bytes).at(static_cast<std::size_t>(std::max<std::ptrdiff_t>(result.offset, 0)));
       throw FileError(path, std::string{"not well-formed XML: "} + result.description(), place.line, place.column);
     }
   }
@@ -146,17 +147,28 @@ class XmlVtkReader {
     const auto file = m_document.child("VTKFile");
     const auto grid = file.child("UnstructuredGrid"), surface = file.child("PolyData");
     if (!grid && !surface) fail("only UnstructuredGrid and PolyData can be read");
+    if (!grid && m_surfaces == XmlSurfaces::Refused)
+      fail("SOFA 20.06 does not read PolyData in XML; read the scene as one of newer SOFA, or use an UnstructuredGrid");
     const auto piece = (grid ? grid : surface).child("Piece");
     if (piece.next_sibling("Piece")) fail("has several pieces, of which SOFA keeps one only");
     const auto points = numbers(piece.child("Points").child("DataArray"));
     for (std::size_t i = 0; i + 2 < points.size(); i += 3)
       m_mesh.positions.push_back({points[i], points[i + 1], points[i + 2]});
-    addCells(lists(piece.child(grid ? "Cells" : "Polys")), m_mesh,
-             [this](const char* problem, std::size_t) { fail(problem); });
+    auto cells = lists(piece.child(grid ? "Cells" : "Polys"));
+    if (!grid) cells.types = typesOfPolygons(cells);
+    addCells(cells, m_mesh, [this](const char* problem, std::size_t) { fail(problem); });
     return std::move(m_mesh);
   }
 
  private:
+  /// By the numbers of their corners, as in SOFA: only triangles and quads become faces.
+  static std::vector<std::int64_t> typesOfPolygons(const CellLists& polygons) {
+    std::vector<std::int64_t> types;
+    for (std::size_t i = 0; i < polygons.cells.size(); i += static_cast<std::size_t>(polygons.cells[i]) + 1)
+      types.push_back(VtkCells::typeOfPolygon(static_cast<std::size_t>(polygons.cells[i])));
+    return types;
+  }
+
   CellLists lists(const pugi::xml_node& cells) const {
     const auto array = [&](const char* name) { return numbers(cells.find_child_by_attribute("Name", name)); };
     const auto corners = array("connectivity"), ends = array("offsets"), types = array("types");
@@ -188,17 +200,19 @@ class XmlVtkReader {
   [[noreturn]] void fail(const std::string& problem) const { throw FileError(m_path, problem); }
 
   std::filesystem::path m_path;
-  std::string m_bytes;
+  XmlSurfaces m_surfaces;
   pugi::xml_document m_document;
   Mesh m_mesh;
 };
 
 }  // namespace
 
-Mesh readVtk(const std::filesystem::path& path) {
-  const auto start = readText(path).substr(0, 4096);
-  if (start.starts_with("# vtk DataFile")) return LegacyVtkReader(path).read();
-  if (start.find("<VTKFile") != std::string::npos) return XmlVtkReader(path).read();
+Mesh readVtk(const std::filesystem::path& path, XmlSurfaces surfaces) {
+  constexpr std::size_t kStart = 4096;
+  std::string text = readText(path);
+  if (text.starts_with("# vtk DataFile")) return LegacyVtkReader(path, std::move(text)).read();
+  if (std::string_view{text}.substr(0, kStart).find("<VTKFile") != std::string_view::npos)
+    return XmlVtkReader(path, text, surfaces).read();
   throw FileError(path, "this is no VTK file");
 }
 

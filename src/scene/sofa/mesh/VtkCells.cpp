@@ -7,7 +7,9 @@ namespace allpairs::scene::sofa {
 namespace {
 
 // VTK's numbers for the types of cells.
+constexpr std::int64_t kPolyVertex = 2;  // Those below are a point and nothing.
 constexpr std::int64_t kLine = 3;
+constexpr std::int64_t kPolyLine = 4;
 constexpr std::int64_t kTriangle = 5;
 constexpr std::int64_t kTriangleStrip = 6;
 constexpr std::int64_t kPolygon = 7;
@@ -54,6 +56,19 @@ bool VtkCells::add(std::int64_t type, std::span<const Index> corners) {
   return true;
 }
 
+std::int64_t VtkCells::typeOfPolygon(std::size_t corners) {
+  switch (corners) {
+    case 2:
+      return kLine;
+    case 3:
+      return kTriangle;
+    case 4:
+      return kQuad;
+    default:
+      return kPolyLine;
+  }
+}
+
 void VtkCells::addPolygon(std::span<const Index> c) {
   if (c.size() == 4)
     m_mesh.quads.push_back({c[0], c[1], c[2], c[3]});
@@ -91,6 +106,7 @@ void VtkCells::addLinear(std::int64_t type, std::span<const Index> c) {
       m_mesh.hexahedra.push_back({c[0], c[1], c[2], c[3], c[4], c[5], c[6], c[7]});
       break;
     default:
+      if (type < 0 || type > kPolyVertex) ++m_mesh.passedOver;
       break;
   }
 }
@@ -100,6 +116,7 @@ void VtkCells::addQuadratic(std::int64_t type, std::span<const Index> c) {
     const auto edge = sorted<2>({a, b});
     if (m_edges.insert(edge).second) m_mesh.edges.push_back(edge);
   };
+  if (cornersNeeded(type) == 0) ++m_mesh.passedOver;
   if (type == kQuadraticEdge) m_mesh.edges.push_back({c[0], c[1]});
   if (type == kQuadraticTriangle) {
     m_mesh.triangles.push_back({c[0], c[1], c[2]});

@@ -15,8 +15,10 @@ class VtkCells {
  public:
   explicit VtkCells(Mesh& mesh) : m_mesh(mesh) {}
 
-  /// Returns false if the cell has too few points for its type; cells of other types are passed over.
+  /// Returns false if the cell has too few points for its type; cells of other types are passed over, and counted.
   [[nodiscard]] bool add(std::int64_t type, std::span<const Index> corners);
+  /// The type of a polygon in XML: a line, a triangle, a quad, or else a line through all corners, which no list holds.
+  [[nodiscard]] static std::int64_t typeOfPolygon(std::size_t corners);
   /// A polygon of a surface: a quad, or a fan of triangles.
   void addPolygon(std::span<const Index> corners);
 
