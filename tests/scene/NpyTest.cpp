@@ -7,6 +7,7 @@
 
 #include "Expect.h"
 #include "allpairs/scene/BoxArray.h"
+#include "allpairs/scene/BoxFrames.h"
 #include "allpairs/scene/FileError.h"
 #include "support/Boxes.h"
 #include "support/Numbers.h"
@@ -175,6 +176,13 @@ TEST(BoxArray, ConcatenationKeepsTheOrderAndNamesTheFile) {
   EXPECT_EQ(all.name(0), "a.npy[0]");
   EXPECT_EQ(all.name(2), "b.npy[1]");
   EXPECT_EQ(all.name(3), "a.npy#2[0]");
+}
+
+TEST(Npy, FramesAreKnownByAnExtensionInCapitalsToo) {
+  const TempFolder folder;
+  const std::string frames = npyBytes(someBoxes(), {.shape = "(1, 3, 6)"});
+  EXPECT_TRUE(scene::isBoxFramesFile(folder.write("a.NPY", frames)));
+  EXPECT_FALSE(scene::isBoxFramesFile(folder.write("b.NPY", npyBytes(someBoxes()))));
 }
 
 }  // namespace

@@ -32,11 +32,6 @@ std::string endOf(const fs::path& path, std::size_t parts) {
   return result.string();
 }
 
-std::string_view withoutDigits(std::string_view text) {
-  while (!text.empty() && text.back() >= '0' && text.back() <= '9') text.remove_suffix(1);
-  return text;
-}
-
 /// Without the number that a reader put behind it: wheel of wheel#2.
 std::string_view withoutNumber(std::string_view name) {
   const std::string_view rest = withoutDigits(name);

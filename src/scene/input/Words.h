@@ -29,6 +29,12 @@ inline constexpr std::string_view kBlanks = " \t\r\f\v";
   return text;
 }
 
+/// Without the digits at its end.
+[[nodiscard]] inline std::string_view withoutDigits(std::string_view text) {
+  while (!text.empty() && text.back() >= '0' && text.back() <= '9') text.remove_suffix(1);
+  return text;
+}
+
 /// Takes the first line off the text, without its end.
 [[nodiscard]] inline std::string_view takeLine(std::string_view& text) {
   const std::string_view line = text.substr(0, text.find('\n'));

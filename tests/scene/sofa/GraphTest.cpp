@@ -145,6 +145,15 @@ TEST_F(SofaGraph, ARootNamedGroupIsReplacedByItsChildren) {
   EXPECT_THAT(pathsOf(readIn("<include href='part.xml' name='Group'/>")), ElementsAre("/p"));
 }
 
+TEST_F(SofaGraph, AnIncludedFileMayBeOneComponent) {
+  write("part.xml", "<MechanicalObject position='1 2 3'/>");
+  EXPECT_THAT(onlyBox(readIn("<include href='part.xml'/><PointModel/>")), IsBox(Corners{1, 2, 3, 1, 2, 3}));
+  EXPECT_THAT(onlyBox(readIn("<include href='part.xml' position='4 5 6'/><PointModel/>")),
+              IsBox(Corners{4, 5, 6, 4, 5, 6}));
+  write("none.xml", "<Data value='1'/>");
+  EXPECT_THAT(complaintIn("<include href='none.xml'/>"), HasSubstr("must be a Node or a component"));
+}
+
 TEST_F(SofaGraph, AttributesOfAnIncludeReplaceThoseThatArePresent) {
   write("part.xml", R"(<Node name="Part"><MechanicalObject name="m" dx="1" position="0 0 0"/><PointModel/></Node>)");
   EXPECT_THAT(onlyBox(readIn("<include href='part.xml' dx='5' dy='7'/>")), IsBox(Corners{5, 0, 0, 5, 0, 0}));

@@ -366,6 +366,19 @@ TEST_F(SofaLoader, RigidMappingsMayNameAFile) {
               IsBox(Corners{10, 0, 0, 15, 5, 5}));
 }
 
+TEST_F(SofaLoader, ANameOfAFileMayBeALinkToAnother) {
+  write("sub/part.xml", "<Node name='P'><MeshObjLoader name='l' filename='b.obj'/></Node>");
+  write("sub/b.obj", "v 7 0 0\nv 8 0 0\nv 7 1 0\nf 1 2 3\n");
+  const auto named = [](const std::string& link) {
+    return "<include href='sub/part.xml'/><MeshTopology name='t' filename='" + link +
+           "'/><MechanicalObject/><TriangleModel/>";
+  };
+  EXPECT_THAT(onlyBox(readIn(named("@P/l.filename"))), IsBox(Corners{7, 0, 0, 8, 1, 0})) << "beside the other's scene";
+  EXPECT_THAT(complaintIn(named("@P/x.filename")), HasSubstr("the file '@P/x.filename' is nowhere"));
+  EXPECT_THAT(complaintIn("<MeshTopology name='t' filename='@t.filename'/><MechanicalObject/><TriangleModel/>"),
+              HasSubstr("depends on itself"));
+}
+
 TEST_F(SofaLoader, MissingAndBrokenFilesAreNamedWithWhatNeedsThem) {
   EXPECT_THAT(
       complaintIn("<MeshObjLoader name='l' filename='gone.obj'/><MechanicalObject src='@l'/><PointModel name='p'/>"),

@@ -319,5 +319,19 @@ TEST_F(SofaModel, ModelsOfPluginsAreNotOverlooked) {
               IsBox(Corners{-1, -2, -2, 3, 2, 2}));
 }
 
+TEST_F(SofaModel, AFlagMayBeALinkToOneInWords) {
+  const auto tests = [this](const std::string& first, const std::string& link) {
+    return readIn("<Node name='a'><MechanicalObject/><SphereModel name='s' selfCollision='" + first +
+                  "'/></Node><Node name='b'><MechanicalObject/><SphereModel name='s' selfCollision='" + link +
+                  "'/></Node>")
+        .models.at(1)
+        .selfCollision;
+  };
+  for (const auto* yes : {"true", "1", "T"}) EXPECT_TRUE(tests(yes, "@../a/s.selfCollision")) << yes;
+  for (const auto* no : {"false", "0"}) EXPECT_FALSE(tests(no, "@../a/s.selfCollision")) << no;
+  EXPECT_THAT(complaintIn("<MechanicalObject/><SphereModel name='s' selfCollision='@s.selfCollision'/>"),
+              HasSubstr("depends on itself"));
+}
+
 }  // namespace
 }  // namespace allpairs::scene::sofa

@@ -87,7 +87,7 @@ class SceneTest : public testing::Test {
 /// Six numbers: the corners of a root box.
 using Corners = std::array<double, 6>;
 
-/// The root box by the rules of SEMANTICS, section 5.
+/// The root box by the rules of docs/semantics.md, "Models".
 inline Corners boxOf(const ModelDescription& model) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   Corners box{kInfinity, kInfinity, kInfinity, -kInfinity, -kInfinity, -kInfinity};

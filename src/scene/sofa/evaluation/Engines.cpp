@@ -92,11 +92,11 @@ std::optional<Numbers> merged(Evaluation& evaluation, const Component& engine, s
 }  // namespace
 
 std::optional<GridMotion> gridMotion(Evaluation& evaluation, const Component& component, std::string_view name) {
-  const auto link = parseLink(component.attributes.value(name, component.attributes.value("src")));
-  const auto* from = link ? followPath(*component.node, &component, link->path).component : nullptr;
+  const auto link = followLinkOf(component, name);
+  const auto* from = link.component;
   if (from == nullptr || from->order > component.order) return std::nullopt;
-  const bool isNamed = component.attributes.has(name) && !link->data.empty();
-  const std::string_view data = isNamed ? std::string_view{link->data} : name;
+  const bool isNamed = component.attributes.has(name) && !link.data.empty();
+  const std::string_view data = isNamed ? std::string_view{link.data} : name;
   if (from->kind() == ComponentKind::SparseGrid && data == "position")
     return GridMotion{.map = {}, .areUnknown = evaluation.topology(*from).unknown};
   if (from->kind() == ComponentKind::MechanicalState && data == "position") {

@@ -257,23 +257,22 @@ bool Evaluation::isMadeFor(const Component& component, const Component& needed, 
 }
 
 bool Evaluation::isDeadLink(const Component& component, std::string_view name) const {
-  const auto link = parseLink(component.attributes.value(name));
-  return link && followPath(*component.node, &component, link->path).component == nullptr;
+  const auto text = component.attributes.value(name);
+  return text.starts_with('@') && followLink(component, text).component == nullptr;
 }
 
 std::optional<Numbers> Evaluation::linked(const Component& component, std::string_view name, const std::string& text) {
-  const auto link = parseLink(text);
-  const auto target = followPath(*component.node, &component, link->path);
+  const auto target = followLink(component, text);
   const auto what = std::string{name} + "=\"" + text.substr(0, 80) + '"';
   if (target.component == nullptr) throw Unplaceable(component, what + " links to nothing");
-  if (link->data.empty()) {
+  if (target.data.empty()) {
     warn(component, what + " links to a component and names no data of it; it is not read, as in SOFA");
     return std::nullopt;
   }
   if (!isMadeFor(component, *target.component, "its " + std::string{name} + " has the default")) return std::nullopt;
-  auto result = output(*target.component, link->data);
+  auto result = output(*target.component, target.data);
   if (!result)
-    throw Unplaceable(component, what + " needs the " + link->data + " of " + target.component->describe() +
+    throw Unplaceable(component, what + " needs the " + target.data + " of " + target.component->describe() +
                                      ", which this reader cannot compute");
   return result;
 }
@@ -281,7 +280,7 @@ std::optional<Numbers> Evaluation::linked(const Component& component, std::strin
 std::optional<Numbers> Evaluation::throughSrc(const Component& component, std::string_view name) {
   const auto* text = component.attributes.find("src");
   if (text == nullptr || component.attributes.has(name)) return std::nullopt;
-  const auto* from = source(component);
+  const auto* from = followLink(component, *text).component;
   if (from == nullptr) throw Unplaceable(component, "src=\"" + text->substr(0, 80) + "\" links to nothing");
   if (!isMadeFor(component, *from, "its src gives nothing")) return std::nullopt;
   if (from->kind() == ComponentKind::MeshLoader &&
@@ -293,11 +292,6 @@ std::optional<Numbers> Evaluation::throughSrc(const Component& component, std::s
   if (!result && unknown && isMeshData(name))
     throw Unplaceable(component, "it takes its data from " + from->describe() + ", which this reader cannot compute");
   return result;
-}
-
-const Component* Evaluation::source(const Component& component) const {
-  const auto link = parseLink(*component.attributes.find("src"));
-  return link ? followPath(*component.node, &component, link->path).component : nullptr;
 }
 
 std::optional<Numbers> Evaluation::output(const Component& component, std::string_view name) {
@@ -385,8 +379,14 @@ Vec3 Evaluation::vector(const Component& component, Names names, const Vec3& sta
 
 bool Evaluation::flag(const Component& component, std::string_view name, bool standard) {
   const auto text = component.attributes.value(name);
-  if (text.starts_with('@')) return number(component, {name}, standard ? 1 : 0) != 0;
-  return parseBool(text).value_or(standard);
+  if (!text.starts_with('@')) return parseBool(text).value_or(standard);
+  // A link to what is written elsewhere has its words, such as "true"; what is computed is a number.
+  const auto target = followLink(component, text);
+  if (target.component == nullptr || !target.component->attributes.has(target.data))
+    return number(component, {name}, standard ? 1 : 0) != 0;
+  const Busy busy(*this, component, std::string{name} + " flag");
+  const bool isThere = isMadeFor(component, *target.component, "its " + std::string{name} + " has the default");
+  return isThere ? flag(*target.component, target.data, standard) : standard;
 }
 
 std::vector<Vec3> Evaluation::points(const Component& component, Names names) {
@@ -427,11 +427,20 @@ std::vector<std::size_t> Evaluation::indices(const Component& component, Names n
   return result;
 }
 
+std::pair<std::string_view, const Component*> Evaluation::fileName(const Component& component, std::string_view name) {
+  const auto text = component.attributes.value(name);
+  const auto target = followLink(component, text);
+  if (target.component == nullptr || target.data.empty()) return {text, &component};
+  const Busy busy(*this, component, std::string{name} + " name");
+  if (!isMadeFor(component, *target.component, "its " + std::string{name} + " names no file")) return {{}, &component};
+  return fileName(*target.component, target.data);
+}
+
 std::optional<std::filesystem::path> Evaluation::file(const Component& component, Names names) {
   for (const auto name : names) {
-    const auto text = component.attributes.value(name);
+    const auto [text, from] = fileName(component, name);
     if (text.empty()) continue;
-    auto found = m_scope.find(text, *component.place.file);
+    auto found = m_scope.find(text, *from->place.file);
     if (!found.problem.empty()) throw Unplaceable(component, "the file '" + std::string{text} + "' " + found.problem);
     m_scope.admit(found.path);
     return std::move(found.path);
@@ -439,16 +448,16 @@ std::optional<std::filesystem::path> Evaluation::file(const Component& component
   return std::nullopt;
 }
 
-bool Evaluation::hasFile(const Component& component, Names names) const {
+bool Evaluation::hasFile(const Component& component, Names names) {
   return std::ranges::any_of(names, [&](auto name) {
-    const auto text = component.attributes.value(name);
-    return !text.empty() && m_scope.find(text, *component.place.file).problem.empty();
+    const auto [text, from] = fileName(component, name);
+    return !text.empty() && m_scope.find(text, *from->place.file).problem.empty();
   });
 }
 
 std::string Evaluation::objFileOf(const Component& topology) const {
-  const auto link = parseLink(topology.attributes.value("src", topology.attributes.value("triangles")));
-  const auto* from = link ? followPath(*topology.node, &topology, link->path).component : &topology;
+  const auto text = topology.attributes.value("src", topology.attributes.value("triangles"));
+  const auto* from = text.starts_with('@') ? followLink(topology, text).component : &topology;
   if (from == nullptr || from->order > topology.order) return {};
   const auto name = from->attributes.value("filename");
   return lowerExtension(name) == ".obj" ? std::string{name} : std::string{};

@@ -61,10 +61,11 @@ class Evaluation {
   /// The component's data lists of edges, triangles, and so on.
   Mesh elementLists(const Component& component);
   std::vector<std::size_t> indices(const Component& component, Names names);
-  /// The file that an attribute names; nothing if the component has no such attribute.
+  /// The file that an attribute names, or another that it links to, beside which the file may be; nothing if the
+  /// component has no such attribute.
   std::optional<std::filesystem::path> file(const Component& component, Names names);
   /// Whether an attribute names a file that is there and may be read.
-  [[nodiscard]] bool hasFile(const Component& component, Names names) const;
+  [[nodiscard]] bool hasFile(const Component& component, Names names);
   /// The Wavefront file that a topology takes its triangles from; empty where it takes them from elsewhere.
   [[nodiscard]] std::string objFileOf(const Component& topology) const;
   /// Whether a data's value comes from elsewhere.
@@ -95,7 +96,9 @@ class Evaluation {
   std::optional<Numbers> throughSrc(const Component& component, std::string_view name);
   std::optional<Numbers> output(const Component& component, std::string_view name);
   std::optional<Numbers> computed(const Component& component, std::string_view name);
-  const Component* source(const Component& component) const;
+  /// The name of a file that an attribute holds, or one that it links to, and the component whose attribute it is; an
+  /// empty one where there is none.
+  std::pair<std::string_view, const Component*> fileName(const Component& component, std::string_view name);
   void indexMappings(const Node& node);
   bool isMade(const Component& mapping, const Wanted& wanted);
 

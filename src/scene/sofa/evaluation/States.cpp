@@ -132,8 +132,7 @@ std::size_t declaredSize(const Component& component, std::size_t standard) {
 
 /// Whether a state takes its positions from a topology by a link: others write theirs once more before they are used.
 bool isOfTopology(const Component& state) {
-  const auto link = parseLink(state.attributes.value("position", state.attributes.value("src")));
-  const auto* from = link ? followPath(*state.node, &state, link->path).component : nullptr;
+  const auto* from = followLinkOf(state, "position").component;
   return from != nullptr && isTopology(*from);
 }
 
@@ -162,10 +161,9 @@ void place(Evaluation& evaluation, const Component& component, State& state) {
 
 /// The state that a state's position links to; null if it links to none.
 const Component* linkedState(const Component& state) {
-  const auto link = parseLink(state.attributes.value("position", state.attributes.value("src")));
-  const auto* from = link ? followPath(*state.node, &state, link->path).component : nullptr;
+  const auto [from, data] = followLinkOf(state, "position");
   if (from == nullptr || !isState(*from)) return nullptr;
-  const bool isPosition = link->data.empty() || link->data == "position";
+  const bool isPosition = data.empty() || data == "position";
   return isPosition || !state.attributes.has("position") ? from : nullptr;
 }
 

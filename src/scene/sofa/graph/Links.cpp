@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <utility>
 
 namespace allpairs::scene::sofa {
 namespace {
@@ -75,6 +76,16 @@ LinkTarget followPath(const Node& from, const Component* self, std::string_view 
     anchored = true;
   }
   return at;
+}
+
+LinkedData followLink(const Component& self, std::string_view text) {
+  auto link = parseLink(text);
+  if (!link) return {};
+  return {followPath(*self.node, &self, link->path).component, std::move(link->data)};
+}
+
+LinkedData followLinkOf(const Component& self, std::string_view name) {
+  return followLink(self, self.attributes.value(name, self.attributes.value("src")));
 }
 
 const Component* firstIn(const Node& node, const Wanted& wanted) {

@@ -31,6 +31,18 @@ struct LinkTarget {
 /// Follows a path from a node; "[-2]" counts back from `self`.
 [[nodiscard]] LinkTarget followPath(const Node& from, const Component* self, std::string_view path);
 
+/// What a link leads to: a component, null where there is no link or nothing there, and the data that it names of it.
+struct LinkedData {
+  const Component* component = nullptr;
+  std::string data;
+};
+
+/// Follows the link that a data of a component is; the component is in it.
+[[nodiscard]] LinkedData followLink(const Component& self, std::string_view text);
+
+/// Likewise of an attribute, or without it of `src`.
+[[nodiscard]] LinkedData followLinkOf(const Component& self, std::string_view name);
+
 using Wanted = std::function<bool(const Component&)>;
 
 /// The first wanted component of a node itself; null if there is none.

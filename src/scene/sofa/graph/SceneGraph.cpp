@@ -7,6 +7,7 @@
 
 #include "allpairs/scene/FileError.h"
 #include "input/Edits.h"
+#include "input/Words.h"
 
 namespace allpairs::scene::sofa {
 namespace {
@@ -20,11 +21,6 @@ bool isFromTo(const Component& component, ComponentKind first, ComponentKind las
 const std::filesystem::path& fileOf(const Place& place) {
   static const std::filesystem::path unknown{"(scene)"};
   return place.file ? *place.file : unknown;
-}
-
-std::string_view withoutDigits(std::string_view name) {
-  while (!name.empty() && name.back() >= '0' && name.back() <= '9') name.remove_suffix(1);
-  return name;
 }
 
 /// Names of SOFA's that are near to another of its names, and no slips.

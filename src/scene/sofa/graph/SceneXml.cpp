@@ -163,7 +163,11 @@ class ElementReader {
     }
     auto root = read(*file, file->document.document_element());
     m_openFiles.pop_back();
-    if (!root || !root->isNode) throw FileError(path, "the outermost element of a scene must be a Node");
+    const bool isIncluded = !m_openFiles.empty();
+    if (!root || (!root->isNode && !isIncluded))
+      throw FileError(path,
+                      std::string{"the outermost element of "} +
+                          (isIncluded ? "an included file must be a Node or a component" : "a scene must be a Node"));
     return std::move(*root);
   }
 

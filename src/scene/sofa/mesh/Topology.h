@@ -24,9 +24,6 @@ class Topology {
   };
 
   Family family = Family::Mesh;
-  /// For containers: the highest kind of element that it can hold, by the number of corners (1, 2, 3, 4 quad, 5 tetra,
-  /// 8 hexa).
-  int holds = 0;
   std::size_t pointCount = 0;
   bool hasPositions = false;  ///< Whether states may take their points from it.
   Mesh given;                 ///< Positions may be fewer or more than pointCount.

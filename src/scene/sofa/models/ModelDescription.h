@@ -79,10 +79,8 @@ struct SceneDescription {
 /// Reads a .scn or .xml scene of SOFA.
 ///
 /// Bad input: a scene that is malformed, refers to missing files, or holds a model whose place depends on something
-/// that
-///            this reader does not know throws FileError with file, line, component and reason; with `partial` such
-///            models are listed in `remarks`, and only a scene that cannot be read at all throws.
-/// Reference: SEMANTICS, section 8.
+///            that this reader does not know throws FileError with file, line, component and reason; with `partial`
+///            such models are listed in `remarks`, and only a scene that cannot be read at all throws.
 [[nodiscard]] SceneDescription describeScene(const std::filesystem::path& path, const ReadOptions& options);
 
 }  // namespace allpairs::scene::sofa
