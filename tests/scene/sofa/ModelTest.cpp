@@ -240,13 +240,12 @@ TEST_F(SofaModel, MethodsHaveTheirDefaults) {
   for (const auto name : {"MinProximityIntersection", "NewProximityIntersection", "LocalMinDistance"}) {
     const auto method = readIn(std::string{"<"} + name + "/>").pipelines[0].method;
     EXPECT_EQ(method.name, name);
-    EXPECT_TRUE(method.proximity);
     EXPECT_EQ(method.alarmDistance, 1.0);
     EXPECT_EQ(method.contactDistance, 0.5);
   }
   const auto discrete = readIn("<DiscreteIntersection/>").pipelines[0].method;
-  EXPECT_FALSE(discrete.proximity);
   EXPECT_EQ(discrete.alarmDistance, 0);
+  EXPECT_EQ(discrete.contactDistance, 0);
   EXPECT_THAT(readIn("").pipelines[0].method.name, IsEmpty());
 }
 
@@ -296,7 +295,7 @@ TEST_F(SofaModel, AListOfRadiiThatLinksToNothingIsTheDefaultAndThatIsSaid) {
 TEST_F(SofaModel, MethodsOfTheSameBoxesAreProximityMethods) {
   for (const auto name : {"CCDTightInclusionIntersection", "CudaProximityIntersection"}) {
     const auto scene = readIn(std::string{"<"} + name + " alarmDistance='0.5'/>");
-    EXPECT_TRUE(scene.pipelines[0].method.proximity) << name;
+    EXPECT_EQ(scene.pipelines[0].method.contactDistance, 0.5) << name;
     EXPECT_EQ(scene.pipelines[0].method.alarmDistance, 0.5) << name;
     EXPECT_THAT(scene.warnings, testing::IsEmpty()) << name;
   }

@@ -51,8 +51,7 @@ struct ModelDescription {
 
 /// How the models are to be tested.
 struct MethodDescription {
-  std::string name;        ///< As the scene calls it; empty where it names none.
-  bool proximity = false;  ///< One of the methods with an alarm distance to which contact distances are added.
+  std::string name;  ///< As the scene calls it; empty where it names none.
   double alarmDistance = 0;
   double contactDistance = 0;
 };

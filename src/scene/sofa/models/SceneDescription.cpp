@@ -30,8 +30,8 @@ MethodDescription describeMethod(Evaluation& evaluation, const Component* method
   if (method == nullptr) return {};
   if (method->kind() == ComponentKind::OtherMethod)
     throw Unplaceable(*method, "this intersection method is not known to this reader");
-  MethodDescription result{.name = method->type, .proximity = method->kind() == ComponentKind::ProximityMethod};
-  if (result.proximity) {
+  MethodDescription result{.name = method->type};
+  if (method->kind() == ComponentKind::ProximityMethod) {
     result.alarmDistance = evaluation.number(*method, {"alarmDistance"}, 1.0);
     result.contactDistance = evaluation.number(*method, {"contactDistance"}, 0.5);
   } else if (method->type != "DiscreteIntersection") {
