@@ -202,6 +202,9 @@ void addGroups(const std::vector<std::uint32_t>& groups, view::ViewScene& to) {
   for (std::uint32_t group = 1; group <= groups.back(); ++group) to.groupSets.push_back({static_cast<int>(group)});
 }
 
+/// Excluded pairs that a page has: more would show nothing, and take the room of those that count.
+constexpr std::size_t kMostExcluded = 1'000'000;
+
 void fill(const BoxInput& input, const ViewRequest& request, view::ViewScene& to) {
   const scene::BoxArray& from = input.boxes;
   if (request.shapes == ShapeTest::Always) {
@@ -221,6 +224,12 @@ void fill(const BoxInput& input, const ViewRequest& request, view::ViewScene& to
   view::ViewFrame frame = boxFrame(from.boxes(), options);
   for (const auto& [first, second] : detection.pairs) frame.pairs.push_back({second, first});
   if (!input.groups.empty()) frame.excluded = view::excludedPairs(to, frame);
+  if (frame.excluded.size() > kMostExcluded) {
+    to.ignored.push_back(
+        {.subject = "pairs within one input",
+         .reason = fmt::format("{} are excluded, too many to be shown", grouped(frame.excluded.size()))});
+    frame.excluded = {};
+  }
   to.frames.push_back(std::move(frame));
   to.statistics = detection.statistics;
 }

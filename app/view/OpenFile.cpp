@@ -14,6 +14,7 @@
 #include <thread>
 
 #include "allpairs/Error.h"
+#include "cli/Text.h"
 
 namespace allpairs::app {
 namespace {
@@ -64,7 +65,7 @@ void tryToOpen(const std::string& target) {
   try {
     openInBrowser(target);
   } catch (const Error& problem) {
-    fmt::print(stderr, "allpairs: {}\n", problem.what());
+    fmt::print(stderr, "allpairs: {}\n", printable(problem.what()));
   }
 }
 

@@ -60,8 +60,8 @@ void writeFile(const view::ViewScene& scene, Output& output) {
   output.commit();
 }
 
-/// A new file in the folder for temporary files, which only the user may read; it goes with this object, or by a signal,
-/// unless it is kept.
+/// A new file in the folder for temporary files, which only the user may read; it goes with this object, or by a
+/// signal, unless it is kept.
 class TemporaryPage {
  public:
   TemporaryPage() : m_name(temporaryFolder() / "allpairs-XXXXXX.html") {

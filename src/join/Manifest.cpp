@@ -185,7 +185,7 @@ void Manifest::check() const {
 
 std::optional<Manifest> Manifest::read(const fs::path& path) {
   std::error_code unknown;
-  if (!fs::exists(path, unknown)) return std::nullopt;
+  if (!fs::exists(path, unknown) && !unknown) return std::nullopt;
   const WorkFile file(path, WorkFile::Mode::Open);
   const std::uintmax_t size = fs::file_size(path, unknown);
   if (unknown) throw FileError::ofSystem(path, "cannot be read", unknown);

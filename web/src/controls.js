@@ -113,7 +113,7 @@ export function setUpToolbar(app, theme) {
   byId("show-shapes").hidden = app.scene.mesh.vertices.length === 0;
   byId("show-region").hidden = app.scene.region === null;
   const updateExcluded = () => (byId("show-excluded").hidden = app.scene.frames.every((frame) => frame.excluded.length === 0));
-  app.addEventListener("frame", updateExcluded); // another margin has others
+  if (app.scene.frames.length === 1) app.addEventListener("frame", updateExcluded); // another margin has others
   app.addEventListener("show", update);
   updateExcluded();
   update();

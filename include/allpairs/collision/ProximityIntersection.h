@@ -15,7 +15,7 @@ class ProximityIntersection : public Intersection {
   static constexpr double kDefaultContactDistance = 0.5;
 
   /// Whether the models' contact distances are added for root boxes, and those of further levels; on by default. For
-  /// elements they always are.
+  /// elements below a bounding tree they always are.
   [[nodiscard]] bool getContactDistanceInBroadPhase() const { return m_contactDistanceInBroadPhase; }
   void setContactDistanceInBroadPhase(bool on);
 

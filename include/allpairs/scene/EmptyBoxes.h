@@ -40,7 +40,8 @@ struct EmptyBoxes {
   }
 };
 
-/// Why such boxes, of which there are some, are in no pair: what is wrong with the first, and how many others there are.
+/// Why such boxes, of which there are some, are in no pair: what is wrong with the first, and how many others there
+/// are.
 [[nodiscard]] std::string emptyReason(const EmptyBoxes& boxes);
 
 /// The warning of a file that has some; `name` is that of the first.

@@ -24,6 +24,7 @@ class ReadScope {
  public:
   static constexpr std::uint64_t kFreeBytes = 256ULL << 20;  ///< For what a file describes without writing it out.
   static constexpr std::uint64_t kBytesPerByte = 256;        ///< More than any honest object takes that a file lists.
+  static constexpr std::uint64_t kPairsPerByte = 32;         ///< For 256 MiB they take half a minute.
   static constexpr std::uint64_t kBytesPerModel = 1000;      ///< In memory, besides its elements and names.
 
   ReadScope(const std::filesystem::path& input, const ReadOptions& options);
@@ -59,6 +60,13 @@ class ReadScope {
     if (m_taken > m_limit) refuse();
   }
 
+  /// Counts pairs of what is about to be compared, of which a few words may ask for many; returns false if that takes too
+  /// long: more than kPairsPerByte for each byte that may be taken.
+  [[nodiscard]] bool takeWork(std::uint64_t pairs) noexcept {
+    m_pairs = pairs > UINT64_MAX - m_pairs ? UINT64_MAX : m_pairs + pairs;
+    return m_pairs / kPairsPerByte <= m_limit;
+  }
+
   /// For a list of such elements that grows one by one: old and new memory are held while it moves.
   void takeElements(std::uint64_t count, std::size_t size) {
     constexpr std::uint64_t kGrowth = 3;
@@ -74,7 +82,7 @@ class ReadScope {
   [[nodiscard]] const StopFlag* stop() const noexcept { return m_stop; }
 
   /// How much is left of what may be taken.
-  [[nodiscard]] std::uint64_t left() const noexcept { return m_limit - m_taken; }
+  [[nodiscard]] std::uint64_t left() const noexcept { return m_taken < m_limit ? m_limit - m_taken : 0; }
 
  private:
   [[noreturn]] void refuse() const;
@@ -90,6 +98,7 @@ class ReadScope {
   std::uint64_t m_bytes = 0;                ///< Of these files.
   std::uint64_t m_taken = 0;
   std::uint64_t m_limit = 0;
+  std::uint64_t m_pairs = 0;  ///< Of what was compared.
 };
 
 }  // namespace allpairs::scene

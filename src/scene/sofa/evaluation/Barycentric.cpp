@@ -270,26 +270,21 @@ void checkPointCount(const Component& mapping, const Topology& topology, std::si
     throw Unplaceable(mapping, "the topology of its input has more points than its input's state");
 }
 
-/// A scene may ask in few words for many points and cells, whose product is the time that binding takes: it counts as
-/// memory does.
-void takeWork(Evaluation& evaluation, const Component& mapping, std::uint64_t points, std::uint64_t cells) {
-  constexpr std::uint64_t kPairsPerByte = 32;  // 256 MiB are half a minute.
-  const auto bytes = points * cells / kPairsPerByte;
-  if (bytes > evaluation.scope().left())
-    throw Unplaceable(mapping, fmt::format("to bind {} points to {} cells takes longer than this reader may for files "
-                                           "of this size; --max-memory allows more",
-                                           points, cells));
-  evaluation.scope().take(bytes);
-}
+/// The states that a mapping reads and writes.
+struct MappedStates {
+  const State& in;
+  const State& child;
+};
 
-std::vector<Vec3> throughCells(Evaluation& evaluation, const Component& mapping, const State& in, const State& child,
+std::vector<Vec3> throughCells(Evaluation& evaluation, const Component& mapping, const MappedStates& states,
                                const Cells& cells) {
+  const auto& [in, child] = states;
   const bool boundAtRest = evaluation.flag(mapping, "useRestPosition", false);
   if (cells.onlyTetrahedra() && !boundAtRest) return child.positions;
   if (cells.empty()) return {};
   if (boundAtRest && in.rest.size() < in.positions.size()) return {};  // no cell is at rest anywhere
   const auto& points = boundAtRest ? child.rest : child.positions;
-  takeWork(evaluation, mapping, points.size(), cells.count());
+  takeWork(evaluation, mapping, std::uint64_t{points.size()} * cells.count());
   std::vector<Vec3> result;
   for (const auto& at : cells.locate(points, boundAtRest ? in.rest : in.positions, evaluation.scope()))
     result.push_back(cells.interpolate(at, in.positions));
@@ -314,6 +309,12 @@ bool areOf(const Topology& grid, const State& state) {
 }
 
 }  // namespace
+
+void takeWork(Evaluation& evaluation, const Component& mapping, std::uint64_t pairs) {
+  evaluation.scope().checkStop();
+  if (evaluation.scope().takeWork(pairs)) return;
+  throw Unplaceable(mapping, "looking for the places of its points takes too long; a larger --max-memory allows more");
+}
 
 std::vector<Vec3> mapBarycentrically(Evaluation& evaluation, const Component& mapping, const Component& parent,
                                      const State& child) {
@@ -341,7 +342,7 @@ std::vector<Vec3> mapBarycentrically(Evaluation& evaluation, const Component& ma
   const bool isContainer = topology.family == Topology::Family::Container;
   const bool byElements = isContainer && evaluation.generation() != Generation::Sofa20;
   if (which->kind() == EdgeContainer || (byElements && cells.onlyEdges())) return {};
-  return throughCells(evaluation, mapping, in, child, cells);
+  return throughCells(evaluation, mapping, {in, child}, cells);
 }
 
 }  // namespace allpairs::scene::sofa

@@ -455,11 +455,11 @@ bool Evaluation::hasFile(const Component& component, Names names) {
   });
 }
 
-std::string Evaluation::objFileOf(const Component& topology) const {
+std::string Evaluation::objFileOf(const Component& topology) {
   const auto text = topology.attributes.value("src", topology.attributes.value("triangles"));
   const auto* from = text.starts_with('@') ? followLink(topology, text).component : &topology;
   if (from == nullptr || from->order > topology.order) return {};
-  const auto name = from->attributes.value("filename");
+  const auto name = fileName(*from, "filename").first;
   return lowerExtension(name) == ".obj" ? std::string{name} : std::string{};
 }
 

@@ -67,7 +67,7 @@ class Evaluation {
   /// Whether an attribute names a file that is there and may be read.
   [[nodiscard]] bool hasFile(const Component& component, Names names);
   /// The Wavefront file that a topology takes its triangles from; empty where it takes them from elsewhere.
-  [[nodiscard]] std::string objFileOf(const Component& topology) const;
+  [[nodiscard]] std::string objFileOf(const Component& topology);
   /// Whether a data's value comes from elsewhere.
   [[nodiscard]] bool isLinked(const Component& component, Names names) const;
   [[nodiscard]] bool isGiven(const Component& component, Names names) const;

@@ -112,17 +112,26 @@ State mapIdentically(const State& parent, State child) {
 }
 
 /// For each wanted point the nearest of the others within a distance; the number of the others where there is none.
-std::vector<std::size_t> nearestWithin(const std::vector<Vec3>& wanted, const std::vector<Vec3>& others, double radius,
-                                       const ReadScope& scope) {
+std::vector<std::size_t> nearestWithin(Evaluation& evaluation, const Component& mapping,
+                                       const std::vector<Vec3>& wanted, const std::vector<Vec3>& others) {
+  const double radius = evaluation.number(mapping, {"radius"}, kSubsetRadius);
   std::vector<std::size_t> order(others.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::sort(order, [&](auto a, auto b) { return std::pair{others[a][0], a} < std::pair{others[b][0], b}; });
+  const auto near = [&](const Vec3& p) {
+    const auto xOf = [&](auto i) { return others[i][0]; };
+    const auto begin = std::ranges::lower_bound(order, p[0] - radius, {}, xOf);
+    return std::pair{begin, std::ranges::upper_bound(begin, order.end(), p[0] + radius, {}, xOf)};
+  };
+  std::uint64_t pairs = 0;  // within a large radius all others are near
+  for (const auto& p : wanted) pairs += static_cast<std::uint64_t>(near(p).second - near(p).first);
+  takeWork(evaluation, mapping, pairs);
   std::vector<std::size_t> result;
   for (const auto& p : wanted) {
-    scope.checkStop();  // Within a large radius a point looks at all others.
+    evaluation.scope().checkStop();
+    const auto [begin, end] = near(p);
     auto best = std::pair{radius, others.size()};
-    auto at = std::ranges::lower_bound(order, p[0] - radius, {}, [&](auto i) { return others[i][0]; });
-    for (; at != order.end() && others[*at][0] <= p[0] + radius; ++at) {
+    for (auto at = begin; at < end; ++at) {
       const auto candidate = std::pair{lengthOf(p - others[*at]), *at};
       if (candidate.first < radius && candidate < best) best = candidate;
     }
@@ -141,9 +150,7 @@ std::vector<std::size_t> subsetIndices(Evaluation& evaluation, const Component& 
     return indices;
   }
   const auto first = evaluation.number(mapping, {"first"}, -1), last = evaluation.number(mapping, {"last"}, -1);
-  if (first == -1)
-    return nearestWithin(child.positions, parent.positions, evaluation.number(mapping, {"radius"}, kSubsetRadius),
-                         evaluation.scope());
+  if (first == -1) return nearestWithin(evaluation, mapping, child.positions, parent.positions);
   const auto end = static_cast<double>(count);
   const auto from = static_cast<std::size_t>(first >= 0 && first < end ? first : 0);
   const auto to = static_cast<std::size_t>(last >= 0 && last < end ? last + 1 : end);
