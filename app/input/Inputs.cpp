@@ -239,7 +239,7 @@ void warnOfPart(const InputSettings& settings, const scene::Scene& scene) {
   std::vector<std::string> words;
   for (const std::string& path : settings.paths) words.push_back(shellWord(path));
   const std::string paths = fmt::format("{}", fmt::join(words, " "));
-  const std::string inputs = printable(settings.spooled == nullptr ? paths : settings.spooled->shownIn(paths));
+  const std::string inputs = settings.spooled == nullptr ? paths : settings.spooled->shownIn(paths);
   warn(fmt::format("{}: {} left out; 'allpairs info --partial {}' lists {}", inputs,
                    counted(static_cast<std::uint64_t>(count), "model"), inputs, count == 1 ? "it" : "them"));
 }

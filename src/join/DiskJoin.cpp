@@ -99,8 +99,7 @@ JoinSummary DiskJoin::run(const ResultSink* sink) {
     }
     if (sink != nullptr && m_options.commit) m_options.commit();
   } catch (...) {
-    std::error_code unknown;
-    if (!fs::exists(file("manifest"), unknown) && !unknown) clearFolder();  // there is nothing to go on with
+    if (isAbsent(file("manifest"))) clearFolder();  // there is nothing to go on with
     throw;
   }
   clearFolder();
@@ -197,8 +196,7 @@ void DiskJoin::dropDamaged() {
 }
 
 bool DiskJoin::hasAllBoxes() {
-  std::error_code ignored;  // then it cannot be opened
-  if (!fs::exists(file("boxes"), ignored) && !ignored) return false;
+  if (isAbsent(file("boxes"))) return false;
   m_spill.emplace(file("boxes"), recordType(), m_manifest.extents);
   for (std::size_t cell = 0; cell < m_manifest.extents.size(); ++cell) {
     report("checking", cell, m_manifest.extents.size());
@@ -209,8 +207,7 @@ bool DiskJoin::hasAllBoxes() {
 
 /// Forgets cells of whose pairs not all are there. New runs go behind those that stay.
 void DiskJoin::dropDamagedCells() {
-  std::error_code ignored;  // then it cannot be opened
-  if (!fs::exists(file("pairs"), ignored) && !ignored) {
+  if (isAbsent(file("pairs"))) {
     m_manifest.cells.clear();
     return;
   }

@@ -184,9 +184,9 @@ void Manifest::check() const {
 }
 
 std::optional<Manifest> Manifest::read(const fs::path& path) {
-  std::error_code unknown;
-  if (!fs::exists(path, unknown) && !unknown) return std::nullopt;
+  if (isAbsent(path)) return std::nullopt;
   const WorkFile file(path, WorkFile::Mode::Open);
+  std::error_code unknown;
   const std::uintmax_t size = fs::file_size(path, unknown);
   if (unknown) throw FileError::ofSystem(path, "cannot be read", unknown);
   std::string text(static_cast<std::size_t>(size), '\0');

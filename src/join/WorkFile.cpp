@@ -111,6 +111,11 @@ void WorkFile::fail(const char* action) const {
   throw FileError::ofSystem(m_path, std::string("cannot be ") + action, code);
 }
 
+bool isAbsent(const std::filesystem::path& path) noexcept {
+  std::error_code unknown;
+  return !std::filesystem::exists(path, unknown) && !unknown;
+}
+
 std::optional<std::uint64_t> checksumOf(const WorkFile& file, std::uint64_t position, std::uint64_t count,
                                         const StopFlag* stop) {
   constexpr std::size_t kAtOnce = std::size_t{1} << 20;

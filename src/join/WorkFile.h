@@ -58,6 +58,9 @@ class WorkFile {
   int m_descriptor = -1;
 };
 
+/// Whether there is no such file; false where the system cannot say.
+[[nodiscard]] bool isAbsent(const std::filesystem::path& path) noexcept;
+
 /// The checksum of a part of a file; none if the file ends before.
 [[nodiscard]] std::optional<std::uint64_t> checksumOf(const WorkFile& file, std::uint64_t position, std::uint64_t count,
                                                       const StopFlag* stop = nullptr);

@@ -116,7 +116,7 @@ TEST(Join, APlanSaysWhatAJoinThenDoes) {
   EXPECT_NEAR(static_cast<double>(plan.pairs), static_cast<double>(done.pairs), 0.1 * static_cast<double>(done.pairs));
 }
 
-/// They go nowhere, and are no copies of others.
+/// They are sent to no cell.
 TEST(Join, EmptyBoxesDoNotCountAmongCopies) {
   std::vector<Box> boxes = toDouble(randomBoxes(300'000, 13));
   JoinCase with(boxes);

@@ -55,7 +55,7 @@ TEST(Cell, ReachIsThatOfTheGreaterOfBothRoundings) {
   EXPECT_EQ(reachOf(point, 1.0, 1.0, kHuge).max[0], kHuge + 2.0);
 }
 
-/// The sum of the margins with the greatest is no number, where that with another is.
+/// The sum with the greatest margin may be NaN where the sum with a lesser one is a number.
 TEST(Cell, ReachIsToInfinityWhereMarginsAre) {
   const Box box{{0, 0, 0}, {1, 1, 1}};
   EXPECT_EQ(reachOf(box, -1.7e308, -1.7e308, kInfinity).max[0], kInfinity);

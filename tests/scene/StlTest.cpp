@@ -137,7 +137,7 @@ TEST(StlMesh, HugeClaimsEndWithTheFile) {
                    "mesh.stl: truncated: the header promises 214748364834 bytes, the file has 134");
 }
 
-/// Looking for the end of a normal in all that is left of the line would take half a minute.
+/// A reader that copied the rest of the line for each facet would take half a minute.
 TEST(StlMesh, AllFacetsMayStandInOneLine) {
   std::string facets;
   for (int i = 0; i < 30'000; ++i)

@@ -69,8 +69,8 @@ class CollisionModel {
   /// Creates or updates the levels above the elements from the current elements.
   ///
   /// `maxDepth` 0 creates the root alone; each further level splits every box of the one above in two. The box and the
-  /// cone of the root do not depend on it. A second call allocates nothing. Levels that are no longer needed, of a tree
-  /// that was deeper, are destroyed.
+  /// cone of the root do not depend on it. A second call allocates nothing. Levels of an earlier,
+  /// deeper tree are destroyed.
   ///
   /// Bad input: a NaN in an element's box throws InvalidBox.
   /// Cost:      O(n), deep: O(n log n) per level.

@@ -242,7 +242,7 @@ std::vector<Vec3> throughGrid(const GridShape& grid, const std::vector<Vec3>& in
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const double local = grid.spacing[axis] != 0 ? (point[axis] - grid.origin[axis]) / grid.spacing[axis] : 0;
       const double last = static_cast<double>(grid.points[axis]) - 2;
-      // What is no number, where coordinates overflow, is in no cell; the sum says that it is not finite.
+      // Where coordinates overflow this is NaN: any cell will do, since the sum is not finite and is refused.
       cell[axis] = std::isnan(local) ? 0 : static_cast<std::size_t>(std::clamp(std::floor(local), 0.0, last));
       at[axis] = local - static_cast<double>(cell[axis]);
     }

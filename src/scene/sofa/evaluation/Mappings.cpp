@@ -124,7 +124,10 @@ std::vector<std::size_t> nearestWithin(Evaluation& evaluation, const Component& 
     return std::pair{begin, std::ranges::upper_bound(begin, order.end(), p[0] + radius, {}, xOf)};
   };
   std::uint64_t pairs = 0;  // within a large radius all others are near
-  for (const auto& p : wanted) pairs += static_cast<std::uint64_t>(near(p).second - near(p).first);
+  for (const auto& p : wanted) {
+    const auto [begin, end] = near(p);
+    pairs += static_cast<std::uint64_t>(end - begin);
+  }
   takeWork(evaluation, mapping, pairs);
   std::vector<std::size_t> result;
   for (const auto& p : wanted) {
