@@ -13,15 +13,6 @@
 
 namespace allpairs::app {
 
-std::string grouped(std::uint64_t number) {
-  std::string digits = std::to_string(number);
-  for (std::size_t position = digits.size(); position > 3;) {
-    position -= 3;
-    digits.insert(position, 1, ',');
-  }
-  return digits;
-}
-
 std::string counted(std::uint64_t count, const std::string& noun, const std::string& plural) {
   if (count != 1 && !plural.empty()) return fmt::format("{} {}", grouped(count), plural);
   return fmt::format("{} {}{}", grouped(count), noun, count == 1 ? "" : "s");

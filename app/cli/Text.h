@@ -9,11 +9,11 @@
 #include <system_error>
 
 #include "allpairs/Box.h"
+#include "allpairs/Error.h"
 
 namespace allpairs::app {
 
-/// 1234567 as 1,234,567.
-[[nodiscard]] std::string grouped(std::uint64_t number);
+using allpairs::grouped;
 
 /// `count` and the noun, in the plural unless it is 1: "3 boxes".
 [[nodiscard]] std::string counted(std::uint64_t count, const std::string& noun, const std::string& plural = {});

@@ -29,6 +29,16 @@ namespace allpairs {
   return result;
 }
 
+/// 1234567 as "1,234,567".
+[[nodiscard]] inline std::string grouped(std::uint64_t number) {
+  std::string digits = std::to_string(number);
+  for (std::size_t position = digits.size(); position > 3;) {
+    position -= 3;
+    digits.insert(position, 1, ',');
+  }
+  return digits;
+}
+
 /// A text as messages show it: one line of at most 500 bytes, control characters escaped as \xNN, a longer text
 /// shortened in the middle. It may contain names and text from untrusted files.
 [[nodiscard]] inline std::string oneLine(std::string_view text) {

@@ -5,14 +5,10 @@
 #include <numeric>
 #include <tuple>
 
+#include "allpairs/Error.h"
+
 namespace allpairs {
 namespace {
-
-std::string grouped(std::uint64_t number) {
-  std::string digits = std::to_string(number);
-  for (std::size_t position = digits.size(); position > 3;) digits.insert(position -= 3, 1, ',');
-  return digits;
-}
 
 void append(std::string& text, const std::string& part) { text += (text.empty() ? "" : ", ") + part; }
 

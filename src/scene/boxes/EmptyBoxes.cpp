@@ -1,19 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "allpairs/scene/EmptyBoxes.h"
 
+#include "allpairs/Error.h"
 #include "allpairs/scene/Scene.h"
 
 namespace allpairs::scene {
-namespace {
-
-/// 1234567 as "1,234,567".
-std::string grouped(std::uint64_t number) {
-  std::string text = std::to_string(number);
-  for (std::size_t end = text.size(); end > 3; end -= 3) text.insert(end - 3, 1, ',');
-  return text;
-}
-
-}  // namespace
 
 std::string emptyReason(const EmptyBoxes& boxes) {
   std::string reason = std::string("min above max on ") + "xyz"[boxes.axis];
