@@ -178,6 +178,26 @@ TEST(Statistics, BoxesFarFromTheOriginNeedHardlyAnyExactTests) {
   }
 }
 
+TEST(Statistics, FewBoxesElsewhereMakeNoMoreExactTestsOfThoseThatAreFarFromTheOrigin) {
+  const Box elsewhere[] = {{{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}},
+                           {{1.0, 0.0, 0.0}, {-1.0, 1.0, 1.0}},
+                           {{-1e12, 0.0, 1e12}, {-1e12, 1.0, 1e12}},
+                           {{-test::kInfinity, -test::kInfinity, 0.0}, {test::kInfinity, test::kInfinity, 0.0}}};
+  for (const Box& other : elsewhere) {
+    std::vector<Box> boxes = test::toDouble(test::randomBoxes(3000, 74));
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        boxes[i].min[axis] += 1e8;
+        boxes[i].max[axis] += 1e8;
+      }
+      if (i % 10 == 3) boxes[i] = other;
+    }
+    OverlapSearch search;
+    EXPECT_EQ(test::toVector(search.find(boxes)), test::oracle(boxes));
+    EXPECT_LT(search.statistics().exactTests, 100'000U);  // those elsewhere overlap each other, 44,850 times
+  }
+}
+
 /// The boxes as they lie in planes, the one after the other in the next of these.
 std::vector<Box> inPlanes(std::vector<Box> boxes, std::span<const double> planes) {
   for (std::size_t i = 0; i < boxes.size(); ++i) boxes[i].min[1] = boxes[i].max[1] = planes[i % planes.size()];

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <span>
 
 #include "allpairs/BoxView.h"
 #include "allpairs/OverlapOptions.h"
@@ -14,34 +15,52 @@
 
 namespace allpairs::engine {
 
-/// The point that the lanes of two sets are relative to: near the boxes if they are float64 and so far from the origin
-/// that float32 would tell few of them apart, else the origin. Any point gives the same pairs.
-///
-/// Float64 boxes that are far only because of a few outliers in the sample keep the origin. On an axis on which they
-/// are all the same point, it is that point if float32 does not have it, so that its lanes are exact.
-[[nodiscard]] inline std::array<double, 3> originFor(const BoxView& first, const BoxView& second) noexcept {
-  /// Boxes farther from the origin than this many times the extent of the sample lose more bits than this has.
+/// Of a sample of boxes, or of the minima of such.
+template <class T>
+using OriginSample = std::array<T, 32>;
+
+/// Where most of some boxes are on an axis, if they are so far from zero that float32 would tell few of them apart, or
+/// all at one number that float32 does not have; else zero. The others make no difference.
+[[nodiscard]] inline double originOf(std::span<const Box> boxes, std::size_t axis) noexcept {
+  /// Boxes farther from zero than this many times their extent lose more bits than this has.
   constexpr double kFarAway = 16.0;
-  std::array<double, 3> origin{};
+  if (boxes.empty()) return 0.0;
+  OriginSample<double> minima{};
+  const auto end =
+      std::transform(boxes.begin(), boxes.end(), minima.begin(), [&](const Box& b) { return b.min[axis]; });
+  const auto middle = minima.begin() + (end - minima.begin()) / 2;
+  std::nth_element(minima.begin(), middle, end);
+  const double point = *middle;
+  if (!std::isfinite(point)) return 0.0;
+  double least = point;
+  double most = point;
+  std::size_t count = 0;
+  for (const Box& box : boxes) {
+    const double away = std::max(std::abs(box.min[axis] - point), std::abs(box.max[axis] - point));
+    if (!(away * kFarAway <= std::abs(point))) continue;
+    least = std::min(least, box.min[axis]);
+    most = std::max(most, box.max[axis]);
+    ++count;
+  }
+  const double extent = most - least;
+  const bool isFar = extent > 0.0 ? kFarAway * extent < std::abs(point) : !isFloat32(point);
+  return isFar && 2 * count > boxes.size() ? point : 0.0;
+}
+
+/// The point that the lanes of two sets are relative to: near most boxes of the larger set, by a sample, if they are
+/// float64 and far from the origin; else the origin. Any point gives the same pairs.
+[[nodiscard]] inline std::array<double, 3> originFor(const BoxView& first, const BoxView& second) noexcept {
   const BoxView& set = first.size() < second.size() ? second : first;
-  if (set.empty() || !(first.isFloat64() || second.isFloat64())) return origin;
-  const std::size_t samples = std::min<std::size_t>(32, set.size());
-  Box bounds = kEmptyBox;
-  for (std::size_t part = 0; part < samples; ++part) {
-    const Box box = set[sampleIndex(part, samples, set.size())];
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      if (!std::isfinite(box.min[axis]) || !std::isfinite(box.max[axis])) continue;
-      bounds.min[axis] = std::min(bounds.min[axis], box.min[axis]);
-      bounds.max[axis] = std::max(bounds.max[axis], box.max[axis]);
-    }
+  if (!(first.isFloat64() || second.isFloat64())) return {};
+  OriginSample<Box> sample;
+  std::size_t size = 0;
+  const std::size_t parts = std::min(sample.size(), set.size());
+  for (std::size_t part = 0; part < parts; ++part) {
+    const Box box = set[sampleIndex(part, parts, set.size())];
+    if (!isEmpty(box) && !hasNan(box)) sample[size++] = box;
   }
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double extent = bounds.max[axis] - bounds.min[axis];
-    const double point = bounds.min[axis];
-    if (extent > 0.0 && std::abs(point) > kFarAway * extent) origin[axis] = point;
-    if (extent == 0.0 && !isFloat32(point)) origin[axis] = point;
-  }
-  return origin;
+  const std::span<const Box> boxes(sample.data(), size);
+  return {originOf(boxes, 0), originOf(boxes, 1), originOf(boxes, 2)};
 }
 
 /// The readers of two sets that are compared, or of one set twice: their lanes are relative to the same point.
