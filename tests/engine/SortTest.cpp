@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "allpairs/Executor.h"
 #include "allpairs/parallel/TbbExecutor.h"
 #include "bvh/RadixSort.h"
 #include "kernels/Kernels.h"
@@ -143,6 +144,12 @@ TEST(PairSort, CountsPairsOfOneThreadAndOfFewBoxes) {
   EXPECT_FALSE(PairOrder(4097, 4096, Order::ByFirst, 1).isCounted);
   EXPECT_FALSE(PairOrder(4096, 4097, Order::BySecond, 1).isCounted);
   EXPECT_FALSE(PairOrder(4096, 4096, Order::ByFirst, 2).isCounted);
+}
+
+TEST(RadixSort, OneThreadLooksAtAFlagBetweenChunksOfAMillion) {
+  SerialExecutor one;
+  EXPECT_EQ(chunksFor(std::size_t{1} << 20U, one), 1U);
+  EXPECT_EQ(chunksFor(std::size_t{30} << 20U, one), 30U);
 }
 
 TEST(RadixSort, SortsRunsOfAnyLengthByTheBitsAboveTheIndex) {

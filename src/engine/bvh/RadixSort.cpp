@@ -96,7 +96,8 @@ template std::uint32_t* radixSort(std::uint32_t*, std::uint32_t*, std::size_t, u
 template std::uint64_t* radixSort(std::uint64_t*, std::uint64_t*, std::size_t, unsigned, unsigned) noexcept;
 
 std::size_t chunksFor(std::size_t size, const Executor& executor) noexcept {
-  const std::size_t most = executor.concurrency() == 1 ? 1 : 8 * executor.concurrency();
+  // On one thread, so many that the executor looks at a flag every few hundredths of a second.
+  const std::size_t most = executor.concurrency() == 1 ? size >> 20U : 8 * executor.concurrency();
   return std::clamp<std::size_t>(std::min(most, size / (2 * kPartSize)), 1, 256);
 }
 
