@@ -17,8 +17,8 @@ enum class NeighborRows : std::uint8_t {
   Half,  ///< In that of the lower index: read one after the other, the rows are the pairs of overlaps().
 };
 
-/// The partners of each box, in compressed sparse rows (CSR): row i is indices[offsets[i]] to indices[offsets[i + 1] -
-/// 1].
+/// The partners of each box, in compressed sparse rows (CSR): row i is the indices at the positions from offsets[i] on
+/// and before offsets[i + 1].
 struct Neighbors {
   std::vector<std::uint64_t> offsets;  ///< One more than there are rows.
   std::vector<std::uint32_t> indices;  ///< Ascending in each row.

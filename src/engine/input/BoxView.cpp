@@ -170,6 +170,7 @@ BoxView BoxView::fromCorners(Span<const double> min, Span<const double> max) {
 BoxView BoxView::fromStrided(std::size_t size, CornerView<float> min, CornerView<float> max) {
   checkCorners(size, min, max);
   BoxView set;
+  if (size == 0) return set;
   set.m_size = size;
   set.m_float32 = {min, max};
   if (anyNan(size, set.m_float32)) throwFirstNan(set);
@@ -179,6 +180,7 @@ BoxView BoxView::fromStrided(std::size_t size, CornerView<float> min, CornerView
 BoxView BoxView::fromStrided(std::size_t size, CornerView<double> min, CornerView<double> max) {
   checkCorners(size, min, max);
   BoxView set;
+  if (size == 0) return set;
   set.m_size = size;
   set.m_isFloat64 = true;
   set.m_float64 = {min, max};
