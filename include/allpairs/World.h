@@ -190,6 +190,17 @@ class World {
   [[nodiscard]] ResultLists<Neighbor> findNearest(const BoxView& boxes, std::size_t count,
                                                   const QueryFilter& filter = {}) const;
 
+  /// Visits the boxes within a distance of a box, near ones early, to find what is nearest by another measure: the
+  /// distance of the shapes in the boxes, which is at least that of the boxes. visit(id) returns the distance within
+  /// which others are wanted from then on, a negative one to end; a greater one than before changes nothing.
+  ///
+  /// A box is visited at most once. Some are a little farther, since distances are compared in float32; none of those
+  /// that are left out is within the last distance. The visitor may use const members of the world.
+  /// Bad input: a box with a NaN throws InvalidBox; a distance that is a NaN InvalidArgument, and ends a query that
+  ///            returns it.
+  void visitNear(const Box& box, double distance, FunctionRef<double(BoxId)> visit,
+                 const QueryFilter& filter = {}) const;
+
  private:
   struct State;
   State& state();

@@ -320,5 +320,20 @@ TEST_P(QueryLanes, APointIsNearThoseWithinTheLimit) {
   EXPECT_GT(near, 1000U);
 }
 
+TEST_P(QueryLanes, TheCheapestIsTheFirstOfTheLeastThatAreAsked) {
+  for (int round = 0; round < 2000; ++round) {
+    std::array<float, kFanOut> costs;
+    for (float& cost : costs) cost = static_cast<float>(m_numbers.below(round % 2 == 0 ? 8 : 1000)) * 0.25F;
+    costs[m_numbers.below(kFanOut)] = kNever;
+    const auto lanes = static_cast<std::uint32_t>(1 + m_numbers.below((1U << kFanOut) - 1));
+    std::size_t expected = kFanOut;
+    for (std::size_t lane = 0; lane < kFanOut; ++lane) {
+      if ((lanes >> lane & 1U) == 0) continue;
+      if (expected == kFanOut || costs[lane] < costs[expected]) expected = lane;
+    }
+    ASSERT_EQ(m_kernels.cheapestLane(lanes, costs.data()), expected) << "round " << round;
+  }
+}
+
 }  // namespace
 }  // namespace allpairs::engine

@@ -269,6 +269,7 @@ class Lives {
     compareSweeps(sweeps, filter);
     compareNearest(points, filter);
     compareNearest(boxes, filter);
+    compareVisits(boxes, filter);
   }
 
   void compareBoxes(const std::vector<Box>& boxes, const QueryFilter& filter) {
@@ -312,6 +313,25 @@ class Lives {
     for (std::size_t i = 0; i < queries.size(); ++i) {
       const std::vector<Neighbor> expected = m_oracle.nearest(queries[i], count, filter);
       ASSERT_EQ(std::vector<Neighbor>(lists[i].begin(), lists[i].end()), expected);
+    }
+  }
+
+  void compareVisits(const std::vector<Box>& boxes, const QueryFilter& filter) {
+    for (const Box& box : boxes) {
+      const std::vector<Neighbor> all = m_oracle.nearest(box, m_oracle.boxes.size(), filter);
+      const double distance = all.empty() ? 1.0 : all[below(all.size())].distance;
+      std::vector<BoxId> expected;
+      for (const Neighbor& near : all) {
+        if (near.distance <= distance) expected.push_back(near.id);
+      }
+      std::vector<BoxId> visited;
+      m_world.visitNear(
+          box, distance, [&](BoxId id) { return visited.push_back(id), distance; }, filter);
+      std::sort(expected.begin(), expected.end());
+      std::sort(visited.begin(), visited.end());
+      ASSERT_TRUE(std::includes(visited.begin(), visited.end(), expected.begin(), expected.end()));
+      ASSERT_EQ(std::adjacent_find(visited.begin(), visited.end()), visited.end());
+      ASSERT_LE(visited.size(), all.size());
     }
   }
 

@@ -2,10 +2,14 @@
 // Queries whose numbers are at the ends of what float32 and float64 hold, where bounds in float32 must not lose a box.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <map>
 #include <random>
 #include <span>
+#include <stdexcept>
 #include <vector>
 
 #include "WorldOracle.h"
@@ -81,6 +85,7 @@ class WorldQueryExtremes : public ::testing::TestWithParam<std::string_view> {
   void compareNearest();
   void compareNearestToBoxes();
   void compareOverlapping();
+  void compareVisits();
 
   template <class T>
   static std::vector<T> listOf(Span<const T> values) {
@@ -146,8 +151,35 @@ void WorldQueryExtremes::compareOverlapping() {
   }
 }
 
+/// A fixed distance, and one that ends at that of the nearest box.
+void WorldQueryExtremes::compareVisits() {
+  for (int i = 0; i < 300; ++i) {
+    const Box box = m_numbers.box();
+    const double distance = std::abs(m_numbers.any());
+    std::map<BoxId, double> distances;
+    for (const Neighbor& near : m_oracle.nearest(box, 1000, {})) distances[near.id] = near.distance;
+    std::map<BoxId, std::size_t> visits;
+    m_world.visitNear(box, distance, [&](BoxId id) { return ++visits[id], kInfinity; });
+    for (const auto& [id, far] : distances) {
+      if (far <= distance) {
+        EXPECT_EQ(visits[id], 1U) << "box " << i << ", " << id;
+      }
+    }
+    for (const auto& [id, times] : visits) EXPECT_LE(times, distances.count(id)) << "box " << i << ", " << id;
+    double least = kInfinity;
+    m_world.visitNear(box, kInfinity, [&](BoxId id) { return least = std::min(least, distances.at(id)); });
+    const std::vector<Neighbor> nearest = m_oracle.nearest(box, 1, {});
+    EXPECT_EQ(least, nearest.empty() ? kInfinity : nearest.front().distance) << "box " << i;
+  }
+}
+
 TEST_P(WorldQueryExtremes, SweptBoxesMeetWhatTheOracleMeets) { compareSweeps(); }
 TEST_P(WorldQueryExtremes, PointsAreAsFarFromBoxesAsTheOracleSays) { compareNearest(); }
+TEST_P(WorldQueryExtremes, AVisitMissesNoBoxWithinTheDistance) {
+  compareVisits();
+  fill(true);
+  compareVisits();
+}
 TEST_P(WorldQueryExtremes, BoxesAreAsFarFromBoxesAsTheOracleSays) { compareNearestToBoxes(); }
 TEST_P(WorldQueryExtremes, BoxesOverlapWhatTheOracleSays) { compareOverlapping(); }
 
@@ -225,6 +257,49 @@ TEST(WorldQuery, TheNearestToABoxWithANanOrAMarginAreRefused) {
   BoxView wide(boxes);
   wide.setMargin(0.5);
   EXPECT_THROW(static_cast<void>(world.findNearest(wide, 1)), InvalidArgument);
+}
+
+TEST(WorldQuery, AVisitAsksAboutLessTheNearerItHasFound) {
+  World world;
+  for (int i = 0; i < 4000; ++i) {
+    const double x = i;
+    world.add(Box{{x, 0.0, 0.0}, {x + 0.5, 1.0, 1.0}});
+  }
+  const Box query{{2000.6, 0.0, 0.0}, {2000.6, 1.0, 1.0}};
+  std::vector<BoxId> visited;
+  const auto visit = [&](BoxId id) {
+    visited.push_back(id);
+    return id == 1990 ? 0.2 : 20.0;  // that shape is the nearest
+  };
+  world.visitNear(query, 30.0, visit);
+  EXPECT_LE(visited.size(), 50U);
+  std::sort(visited.begin(), visited.end());
+  EXPECT_EQ(std::adjacent_find(visited.begin(), visited.end()), visited.end());
+  const std::array<BoxId, 2> expected{1990, 2000};
+  EXPECT_TRUE(std::includes(visited.begin(), visited.end(), expected.begin(), expected.end()));
+}
+
+TEST(WorldQuery, AVisitEndsWhenTheVisitorWantsNoMore) {
+  World world;
+  for (int i = 0; i < 100; ++i) world.add(Box{{0.0, 0.0, 0.0}, {1.0, 1.0, 1.0}});
+  for (const double end : {-1.0, -kInfinity, std::nan("")}) {
+    int visits = 0;
+    world.visitNear(Box{}, kInfinity, [&](BoxId) { return ++visits == 3 ? end : kInfinity; });
+    EXPECT_EQ(visits, 3);
+  }
+  const auto none = [](BoxId) -> double { throw std::logic_error("visited"); };
+  EXPECT_THROW(world.visitNear(Box{}, 0.0, none), std::logic_error);
+  EXPECT_NO_THROW(world.visitNear(Box{}, -1.0, none));
+  EXPECT_NO_THROW(world.visitNear(kEmptyBox, kInfinity, none));
+  EXPECT_NO_THROW(World().visitNear(Box{}, kInfinity, none));
+}
+
+TEST(WorldQuery, AVisitOfABoxOrADistanceThatIsANanIsRefused) {
+  World world;
+  world.add(Box{{0.0, 0.0, 0.0}, {1.0, 1.0, 1.0}});
+  const auto visit = [](BoxId) { return 1.0; };
+  EXPECT_THROW(world.visitNear(Box{{0.0, std::nan(""), 0.0}, {1.0, 1.0, 1.0}}, 1.0, visit), InvalidBox);
+  EXPECT_THROW(world.visitNear(Box{}, std::nan(""), visit), InvalidArgument);
 }
 
 TEST(WorldQuery, DistancesWhoseSquaresNoNumberHoldsAreStillTold) {

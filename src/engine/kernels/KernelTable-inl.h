@@ -61,6 +61,7 @@ const Kernels* kernelTable() {
                              &markedLanes,
                              &meetingLanes,
                              &nearLanes,
+                             &cheapestLane,
                              &touchingPlaces};
   return &table;
 }

@@ -284,6 +284,9 @@ struct Kernels {
   std::uint32_t (*meetingLanes)(const LaneBlock& block, const SweepLanes& sweep, float limit, float* times);
   std::uint32_t (*nearLanes)(const LaneBlock& block, const LaneBox& box, float limit, float* squares);
 
+  /// The cheapest of some lanes, of which there is one, by such numbers; the first of several.
+  std::size_t (*cheapestLane)(std::uint32_t lanes, const float* costs);
+
   /// The same as touchingLanes() for each visit, in their order: writes the places of the lanes in the level, and the
   /// box beside each, and up to kVectorSlack past the last one. Returns how many there are.
   std::size_t (*touchingPlaces)(const BlockVisits& visits, std::uint32_t* boxOf, std::uint32_t* places);

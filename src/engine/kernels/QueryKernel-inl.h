@@ -151,6 +151,23 @@ std::uint32_t nearLanes(const LaneBlock& block, const LaneBox& box, float limit,
   });
 }
 
+/// The cheapest of some lanes, the first of several.
+std::size_t cheapestLane(std::uint32_t lanes, const float* costs) {
+  const FloatTag d;
+  const IdTag du;
+  const auto isAmong = [&](std::size_t i) HWY_ATTR {
+    const auto bit = hn::Shl(hn::Set(du, 1U), numbersFrom(i));
+    return hn::RebindMask(d, hn::Ne(hn::And(bit, hn::Set(du, lanes)), hn::Zero(du)));
+  };
+  const auto costsOf = [&](std::size_t i)
+                           HWY_ATTR { return hn::IfThenElse(isAmong(i), hn::LoadU(d, costs + i), hn::Set(d, kNever)); };
+  auto least = costsOf(0);
+  for (std::size_t i = hn::Lanes(d); i < kFanOut; i += hn::Lanes(d)) least = hn::Min(least, costsOf(i));
+  const auto everywhere = hn::MinOfLanes(d, least);
+  const std::uint32_t cheapest = bitsOfBlock([&](std::size_t i) HWY_ATTR { return hn::Eq(costsOf(i), everywhere); });
+  return hwy::Num0BitsBelowLS1Bit_Nonzero32(cheapest & lanes);
+}
+
 }  // namespace
 }  // namespace allpairs::engine::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

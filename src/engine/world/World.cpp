@@ -351,4 +351,11 @@ ResultLists<Neighbor> World::findNearest(const BoxView& boxes, std::size_t count
   return State::queries(*this, filter).nearest(boxes, count);
 }
 
+void World::visitNear(const Box& box, double distance, FunctionRef<double(BoxId)> visit,
+                      const QueryFilter& filter) const {
+  checkQueryBox(box);
+  if (std::isnan(distance)) throw InvalidArgument("the distance of a query is NaN");
+  State::queries(*this, filter).near(box, distance, visit);
+}
+
 }  // namespace allpairs

@@ -2,7 +2,6 @@
 #include "world/WorldQueries.h"
 
 #include <algorithm>
-#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
@@ -12,6 +11,7 @@
 #include "input/BoxReader.h"
 #include "kernels/Kernels.h"
 #include "memory/Platform.h"
+#include "world/QueryDescent.h"
 #include "world/QueryTests.h"
 
 namespace allpairs::engine {
@@ -19,10 +19,6 @@ namespace {
 
 /// Queries that one task answers: some ten microseconds of work (query_benchmark).
 constexpr std::size_t kQueriesPerTask = 64;
-
-/// Boxes that descend a hierarchy together, and visits of blocks that one call of a kernel makes: as many boxes are
-/// tested between two looks at the flag as when one query descends.
-constexpr std::size_t kTogether = 16;
 
 bool isNearer(const SweepHit& a, const SweepHit& b) noexcept { return std::tie(a.t, a.id) < std::tie(b.t, b.id); }
 bool isCloser(const Neighbor& a, const Neighbor& b) noexcept {
@@ -41,107 +37,6 @@ bool keepNearest(std::vector<Neighbor>& list, std::size_t begin, std::size_t cou
   list.push_back(found);
   std::push_heap(first(), list.end(), isCloser);
   return list.size() - begin == count;
-}
-
-/// A hierarchy that a query descends, and the flag that ends it.
-struct Tree {
-  const BvhView& view;
-  bool isExact;  ///< Whether lanes are the boxes.
-  const StopFlag* stop;
-
-  /// Before a block of a level, so that two looks have 256 boxes between them at most.
-  void look(std::size_t level) const {
-    if (level == 1) checkStop(stop);
-  }
-};
-
-/// Calls take(id, lanes) for all candidate boxes; lanesOf(block) has a bit for each candidate lane.
-template <class LanesOf, class Take>
-void descend(const Tree& tree, const LanesOf& lanesOf, const Take& take) {
-  const BvhView& view = tree.view;
-  // As deep as there are levels, at most kMaxLevels.
-  const auto visit = [&](const auto& self, std::size_t level, std::size_t block) -> void {
-    tree.look(level);
-    const LaneBlock& lanes = view.level[level].blocks[block];
-    forEachBit(lanesOf(lanes), [&](std::size_t lane) {
-      const std::size_t child = block * kFanOut + lane;
-      level == 0 ? take(view.ids[child], lanes.get(lane)) : self(self, level - 1, child);
-    });
-  };
-  visit(visit, view.depth - 1, 0);
-}
-
-/// Some boxes that descend a hierarchy together, a level at a time and some visits at a time: memory stays small,
-/// and all hits of one box come before those of the next.
-struct Descent {
-  const Tree& tree;
-  const Kernels& kernels;
-  std::span<const LaneBox> boxes;  ///< At most kTogether.
-
-  /// What some visits of a level find; not initialised.
-  struct Found {
-    std::array<std::uint32_t, kTogether * kFanOut + kVectorSlack> boxOf;
-    std::array<std::uint32_t, kTogether * kFanOut + kVectorSlack> places;
-  };
-
-  /// Calls take(number of the box, id) for all candidate boxes.
-  template <class Take>
-  void run(const Take& take) const {
-    std::array<std::uint32_t, kTogether> boxOf;
-    std::iota(boxOf.begin(), boxOf.end(), 0U);
-    const std::array<std::uint32_t, kTogether> root{};
-    visit(tree.view.depth - 1, {boxes.data(), nullptr, boxOf.data(), root.data(), boxes.size()}, take);
-  }
-
-  /// As deep as there are levels, at most kMaxLevels.
-  // NOLINTNEXTLINE(misc-no-recursion)
-  template <class Take>
-  void visit(std::size_t level, BlockVisits visits, const Take& take) const {
-    Found found;
-    if (level == 0) checkStop(tree.stop);
-    visits.blocks = tree.view.level[level].blocks;
-    const std::size_t size = kernels.touchingPlaces(visits, found.boxOf.data(), found.places.data());
-    if (level == 0) {
-      for (std::size_t i = 0; i < size; ++i) take(found.boxOf[i], tree.view.ids[found.places[i]]);
-      return;
-    }
-    for (std::size_t i = 0; i < size; i += kTogether) {
-      visit(level - 1, {visits.boxes, nullptr, &found.boxOf[i], &found.places[i], std::min(size - i, kTogether)}, take);
-    }
-  }
-};
-
-/// The cheapest of some lanes. Most often few are visited before the limit excludes the rest: sorting all takes longer.
-std::size_t cheapestLane(std::uint32_t bits, const std::array<float, kFanOut>& costs) noexcept {
-  auto best = static_cast<std::size_t>(std::countr_zero(bits));
-  for (bits &= bits - 1; bits != 0; bits &= bits - 1) {
-    const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
-    best = costs[lane] < costs[best] ? lane : best;
-  }
-  return best;
-}
-
-/// Calls take(id, lanes) for boxes in approximate order of cost, up to a limit that take() may lower.
-///
-/// lanesOf(block, costs) has a bit for each lane of a block that may be within the limit, and writes the costs of the
-/// lanes: lower bounds of the costs of their boxes, and not negative.
-template <class LanesOf, class Take>
-void descendByCost(const Tree& tree, const LanesOf& lanesOf, const float& limit, const Take& take) {
-  const BvhView& view = tree.view;
-  const auto visit = [&](const auto& self, std::size_t level, std::size_t block) -> void {
-    tree.look(level);
-    std::array<float, kFanOut> costs;
-    const LaneBlock& lanes = view.level[level].blocks[block];
-    std::uint32_t bits = lanesOf(lanes, costs.data());
-    while (bits != 0) {
-      const std::size_t lane = cheapestLane(bits, costs);
-      if (costs[lane] > limit) return;
-      bits &= ~(1U << lane);
-      const std::size_t child = block * kFanOut + lane;
-      level == 0 ? take(view.ids[child], lanes.get(lane)) : self(self, level - 1, child);
-    }
-  };
-  visit(visit, view.depth - 1, 0);
 }
 
 /// Sorts ids, of which no two are the same. Many that are close together are sorted as bits, in a fraction of the time.
@@ -234,7 +129,7 @@ void WorldQueries::eachBvh(const Visit& visit) const {
   const auto show = [&](std::size_t world) {
     m_search.eachTree(world, [&](const DynamicBvh& tree, bool isStatic) {
       if (isStatic ? m_filter.staticBoxes : m_filter.dynamicBoxes)
-        visit(Tree{tree.view(), tree.exact(), m_search.stop()});
+        visit(QueryTree{tree.view(), tree.exact(), m_search.kernels(), m_search.stop()});
     });
   };
   // Those of all worlds, or of the filter's and of the boxes of every world.
@@ -318,14 +213,14 @@ struct WorldQueries::Askers {
 /// In several hierarchies the hits of boxes that ask together would come mixed.
 bool WorldQueries::canAskTogether() const {
   std::size_t trees = 0;
-  eachBvh([&](const Tree&) { ++trees; });
+  eachBvh([&](const QueryTree&) { ++trees; });
   return trees == 1;
 }
 
 /// Appends the ids that each box overlaps, and adds how many there are to its size.
 void WorldQueries::overlapping(const Askers& askers, std::vector<BoxId>& ids) const {
   std::size_t begin = ids.size();
-  eachBvh([&](const Tree& tree) {
+  eachBvh([&](const QueryTree& tree) {
     const auto take = [&](std::size_t i, BoxId id) {
       if (!passes(id)) return;
       const bool isCertain = tree.isExact && askers.areExact[i];
@@ -333,7 +228,7 @@ void WorldQueries::overlapping(const Askers& askers, std::vector<BoxId>& ids) co
       ids.push_back(id);
       ++*askers.sizes[i];
     };
-    Descent{tree, m_search.kernels(), {askers.lanes.data(), askers.count}}.run(take);
+    QueryDescent{tree, {askers.lanes.data(), askers.count}}.run(take);
   });
   for (std::size_t i = 0; i < askers.count; ++i) {
     sortIds(std::span(ids).subspan(begin, *askers.sizes[i]));
@@ -348,7 +243,7 @@ void WorldQueries::overlapping(const Box& query, std::vector<BoxId>& ids) const 
   const LaneBox lanes = lanesOf(query);
   const bool queryIsExact = boxOf(lanes) == query;
   const auto lanesIn = [&](const LaneBlock& block) { return m_search.kernels().touchingLanes(block, lanes); };
-  eachBvh([&](const Tree& tree) {
+  eachBvh([&](const QueryTree& tree) {
     const auto take = [&](BoxId id, const LaneBox&) {
       if (!passes(id)) return;
       if ((tree.isExact && queryIsExact) || overlap(m_store.box(id), query, m_store.margin(id))) ids.push_back(id);
@@ -366,7 +261,7 @@ SweepHit WorldQueries::first(const BoxSweep& sweep) const {
   const auto lanesIn = [&](const LaneBlock& block, float* times) {
     return m_search.kernels().meetingLanes(block, lanes, limit, times);
   };
-  eachBvh([&](const Tree& tree) {
+  eachBvh([&](const QueryTree& tree) {
     const auto take = [&](BoxId id, const LaneBox& at) {
       if (!passes(id)) return;
       const SweepHit hit{id, meetingTime(sweep, widenedBox(id, at, tree.isExact))};
@@ -388,7 +283,7 @@ void WorldQueries::all(const BoxSweep& sweep, std::vector<SweepHit>& hits) const
     std::array<float, kFanOut> times;
     return m_search.kernels().meetingLanes(block, lanes, limit, times.data());
   };
-  eachBvh([&](const Tree& tree) {
+  eachBvh([&](const QueryTree& tree) {
     const auto take = [&](BoxId id, const LaneBox& at) {
       if (!passes(id)) return;
       const double t = meetingTime(sweep, widenedBox(id, at, tree.isExact));
@@ -418,7 +313,7 @@ void WorldQueries::nearest(const Box& query, std::size_t count, std::vector<Neig
     return m_search.kernels().nearLanes(block, lanes, limit, squares);
   };
   const std::size_t begin = neighbors.size();
-  eachBvh([&](const Tree& tree) {
+  eachBvh([&](const QueryTree& tree) {
     const auto take = [&](BoxId id, const LaneBox& at) {
       if (!passes(id)) return;
       const Neighbor found{id, distanceBetween(query, widenedBox(id, at, tree.isExact))};
@@ -429,6 +324,22 @@ void WorldQueries::nearest(const Box& query, std::size_t count, std::vector<Neig
     descendByCost(tree, lanesIn, limit, take);
   });
   std::sort(neighbors.begin() + static_cast<std::ptrdiff_t>(begin), neighbors.end(), isCloser);
+}
+
+/// The visitor measures for itself: a distance in double would be taken twice.
+void WorldQueries::near(const Box& query, double distance, FunctionRef<double(BoxId)> visit) const {
+  if (isEmpty(query)) return;
+  const LaneBox lanes = lanesOf(query);
+  const auto limitOf = [](double most) { return most >= 0.0 ? roundUpFar(most * most) : -1.0F; };
+  float limit = limitOf(distance);
+  const auto lanesIn = [&](const LaneBlock& block, float* squares) {
+    return m_search.kernels().nearLanes(block, lanes, limit, squares);
+  };
+  eachBvh([&](const QueryTree& tree) {
+    descendByCost(tree, lanesIn, limit, [&](BoxId id, const LaneBox&) {
+      if (passes(id)) limit = std::min(limit, limitOf(visit(id)));
+    });
+  });
 }
 
 /// Of no more queries than one task answers, neither an order nor tasks pay.

@@ -29,6 +29,7 @@ class WorldQueries {
   [[nodiscard]] SweepHit first(const BoxSweep& sweep) const;
   void all(const BoxSweep& sweep, std::vector<SweepHit>& hits) const;
   void nearest(const Box& query, std::size_t count, std::vector<Neighbor>& neighbors) const;
+  void near(const Box& query, double distance, FunctionRef<double(BoxId)> visit) const;
 
   [[nodiscard]] ResultLists<BoxId> overlapping(const BoxView& boxes) const;
   template <class Query>  // Ray or BoxSweep

@@ -266,8 +266,12 @@ class ObjectBroadPhase {
 
   template <class Visit>
   bool scanMany(const Bounds& bounds, const Visit& visit) const {
-    return eachWithin(toBox(bounds), m_search.worldForQuery(m_rows.rows()), 0,
-                      [&](BoxId id) { return m_rows.overlaps(id, bounds) && visit(id); });
+    const Box box = toBox(bounds);
+    const auto visitIf = [&](BoxId id) { return m_rows.overlaps(id, bounds) && visit(id); };
+    const World* const world = m_search.worldForQuery(m_rows.rows());
+    if (world == nullptr) return eachRounded(box, 0, visitIf);
+    const std::vector<BoxId> found = world->findOverlapping(box);
+    return std::any_of(found.begin(), found.end(), visitIf);
   }
 
   template <class Ask>
@@ -315,15 +319,36 @@ class ObjectBroadPhase {
     return askInTurn(left.begin(), end, question, least);
   }
 
-  /// Asks about an object that is near, which makes the least distance small, and then about all that are nearer.
   template <class AnyQuestion>
   bool askMany(const AnyQuestion& question, S& least) const {
-    const World* const world = m_search.worldForNear(m_rows.rows());
-    const BoxId first = least == std::numeric_limits<S>::max() ? nearest(world, question) : kNoBox;
+    const World* const world = m_search.worldForQuery(m_rows.rows());
+    return world != nullptr ? askInWorld(*world, question, least) : askAll(question, least);
+  }
+
+  /// Asks about near objects, and as soon as one makes the least distance smaller, only about those that are nearer.
+  template <class AnyQuestion>
+  bool askInWorld(const World& world, const AnyQuestion& question, S& least) const {
+    const double most = magnitude(question.bounds);
+    double within = reachOf(least, most);
+    bool isEnded = false;
+    world.visitNear(toBox(question.bounds), within, [&](BoxId id) {
+      Candidate candidate;
+      if (id < question.begin || !isCandidate(question, id, least, candidate)) return within;
+      isEnded = question.ask(id);
+      return within = isEnded ? -1.0 : reachOf(least, most);
+    });
+    return isEnded;
+  }
+
+  /// Asks about an object that is near, which makes the least distance small, and then about all that are nearer.
+  template <class AnyQuestion>
+  bool askAll(const AnyQuestion& question, S& least) const {
+    const BoxId first = least == std::numeric_limits<S>::max() ? nearest(question) : kNoBox;
     if (first != kNoBox && question.ask(first)) return true;
     std::vector<Candidate> left;
     Candidate candidate;
-    eachWithin(widened(question.bounds, limitOf(least)), world, question.begin, [&](BoxId id) {
+    const Box reach = widened(question.bounds, limitOf(least));
+    eachRounded(reach, question.begin, [&](BoxId id) {
       if (id != first && isCandidate(question, id, least, candidate)) left.push_back(candidate);
       return false;
     });
@@ -333,11 +358,7 @@ class ObjectBroadPhase {
   /// Calls visit(id) for the objects whose boxes overlap a box, and for some others, until it returns true, and says
   /// whether it did. Those before a first one may be left out.
   template <class Visit>
-  bool eachWithin(const Box& box, const World* world, BoxId begin, const Visit& visit) const {
-    if (world != nullptr) {
-      const std::vector<BoxId> found = world->findOverlapping(box);
-      return std::any_of(found.begin(), found.end(), visit);
-    }
+  bool eachRounded(const Box& box, BoxId begin, const Visit& visit) const {
     const RoundedBoxes& rounded = m_search.rounded(m_rows.rows());
     const RoundedBoxes::Row row = toRounded(box);
     for (std::size_t block = begin / RoundedBoxes::kBlock; block < rounded.blocks(); ++block) {
@@ -375,28 +396,28 @@ class ObjectBroadPhase {
 
   /// A wanted object near a box; kNoBox if there is none, or none was found.
   template <class AnyQuestion>
-  [[nodiscard]] BoxId nearest(const World* world, const AnyQuestion& question) const {
-    if (world != nullptr) return nearestIn(*world, question);
+  [[nodiscard]] BoxId nearest(const AnyQuestion& question) const {
     if (question.begin != 0) return kNoBox;  // the question is about an object here, which is the nearest
     const BoxId id = m_search.rounded(m_rows.rows()).nearest(toRounded(toBox(question.bounds)));
     return id != kNoBox && m_rows.hasBox(id) && question.isWanted(id) ? id : kNoBox;
   }
 
-  /// The same, near the middle of a box, if it has one.
-  template <class AnyQuestion>
-  [[nodiscard]] static BoxId nearestIn(const World& world, const AnyQuestion& question) {
-    std::array<double, 3> middle{};
-    const Box box = toBox(question.bounds);
-    for (std::size_t axis = 0; axis < 3; ++axis) middle[axis] = (box.min[axis] + box.max[axis]) / 2.0;
-    if (!std::all_of(middle.begin(), middle.end(), [](double x) { return std::isfinite(x); })) return kNoBox;
-    // Of the objects here, the box itself and those that it overlaps are near and not wanted.
-    for (std::size_t count = question.begin == 0 ? 1 : 4;; count *= 4) {
-      const std::vector<Neighbor> found = world.findNearest(middle, count);
-      const auto wanted =
-          std::find_if(found.begin(), found.end(), [&](const auto& x) { return question.isWanted(x.id); });
-      if (wanted != found.end()) return wanted->id;
-      if (found.size() < count) return kNoBox;
+  static double magnitude(double bound) { return std::isfinite(bound) ? std::abs(bound) : 0.0; }
+
+  /// The greatest of the finite bounds of a box.
+  static double magnitude(const Bounds& bounds) {
+    double most = 0.0;
+    for (int axis = 0; axis < 3; ++axis) {
+      most = std::max({most, magnitude(bounds.min_[axis]), magnitude(bounds.max_[axis])});
     }
+    return most;
+  }
+
+  /// At most the distance, in double, of what the host finds within the least distance of a box, however it rounds.
+  static double reachOf(S least, double magnitude) {
+    if (least == std::numeric_limits<S>::max()) return std::numeric_limits<double>::infinity();
+    const auto within = static_cast<double>(limitOf(least));
+    return within + 16.0 * static_cast<double>(std::numeric_limits<S>::epsilon()) * std::max(magnitude, within);
   }
 
   /// Holds all boxes that the host finds within a distance, however it rounds: by the finite bounds, which it takes gaps
@@ -404,7 +425,6 @@ class ObjectBroadPhase {
   [[nodiscard]] static Box widened(const Bounds& bounds, S distance) {
     Box box = toBox(bounds);
     const auto by = static_cast<double>(distance);
-    const auto magnitude = [](double bound) { return std::isfinite(bound) ? std::abs(bound) : 0.0; };
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const double most = std::max({magnitude(box.min[axis]), magnitude(box.max[axis]), magnitude(by)});
       const double slack = 8.0 * static_cast<double>(std::numeric_limits<S>::epsilon()) * most;

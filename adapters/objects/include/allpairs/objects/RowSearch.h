@@ -64,11 +64,6 @@ class RowSearch {
     return rows.size() <= 6 * kFewForQueries ? nullptr : worldForMany(rows);
   }
 
-  /// The same for a search of near objects, of which a world makes two.
-  [[nodiscard]] const World* worldForNear(Span<const T> rows) const {
-    return rows.size() <= 6 * kFewForNear ? nullptr : worldForMany(rows);
-  }
-
   /// All rows that have been noted, to be compared with a box; those behind them are empty.
   [[nodiscard]] const RoundedBoxes& rounded(Span<const T> rows) const;
 
@@ -79,7 +74,6 @@ class RowSearch {
   /// Up to so many rows, a scan of all is always as fast as a query of a world: measured with boxes that overlap 1 or 2
   /// of 100 to 400 others.
   static constexpr std::size_t kFewForQueries = 128;
-  static constexpr std::size_t kFewForNear = 256;
 
   [[nodiscard]] const World* worldForMany(Span<const T> rows) const;
   void beginChange();
