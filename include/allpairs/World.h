@@ -45,8 +45,11 @@ namespace allpairs {
 ///            step that returned, and no changes; the next step reports the changes since that one.
 /// Callbacks: `accept` may use other worlds, and const members of the world that calls it. Of these it must not call
 ///            findBetween(), which would call `accept` again until the stack is full. All others, those that change
-///            the world, throw InvalidArgument, and it must not move or destroy that world. The same holds for a task
-///            of the executor.
+///            the world, throw InvalidArgument, and it must not move or destroy that world. A task of the executor,
+///            and what a stop flag asks, may use other worlds too, and of the world that runs them what reads boxes
+///            and the last result: box(), contains(), properties(), size(), idBound(), result(). They must not change
+///            it. While its hierarchies or lists are about to change, queries and result(world) throw InvalidArgument
+///            there.
 /// Moving:    a moved-from world is like a new one with default options.
 ///
 /// The lists of a step are valid until the next step. Queries return their own memory.

@@ -297,6 +297,7 @@ TEST_F(CallbackOfWorld, AWorldThatItsAcceptCallsRefuses) {
       [&] { world.clear(); },
       [&] { world.setProperties(0, {}); },
       [&] { world.invalidate(some); },
+      [&] { world.shrink(); },
       [&] { static_cast<void>(world.step()); }};
   const std::vector<std::function<void()>> queries{[&] { static_cast<void>(world.findOverlapping(box)); },
                                                    [&] { static_cast<void>(world.findOverlapping(boxes)); },
@@ -331,6 +332,92 @@ TEST_F(CallbackOfWorld, AWorldThatItsAcceptCallsRefuses) {
   EXPECT_GT(calls, 50U);
   EXPECT_EQ(refused, calls * each.size());
   EXPECT_EQ(test::toVector(world.findBetween(world)).size(), 60 + 2 * oracle.pairs.size());
+}
+
+/// Runs tasks on this thread, and calls something else after each of them.
+class CallingExecutor final : public Executor {
+ public:
+  explicit CallingExecutor(const std::function<void()>& call) : m_call(call) {}
+  [[nodiscard]] std::size_t concurrency() const noexcept override { return 2; }
+  void run(std::size_t count, FunctionRef<void(std::size_t)> task) override {
+    for (std::size_t i = 0; i < count; ++i) {
+      task(i);
+      m_call();
+    }
+  }
+
+ private:
+  const std::function<void()>& m_call;
+};
+
+/// A world that is called by a task of its executor, by its stop, or by its stop in a task.
+class CalledBack : public ::testing::TestWithParam<std::string> {
+ protected:
+  std::vector<Box> boxes = test::toDouble(test::randomBoxes(20000, 85));
+  World world;
+  std::vector<BoxId> ids;
+  bool isOn = false;
+  std::atomic<std::size_t> refused = 0;
+
+  std::function<void()> call = [this] { callOnce(); };
+  CallingExecutor calling{call};
+  test::PoolExecutor threads{3};
+  std::function<bool()> ask = [this] {
+    callOnce();
+    return false;
+  };
+  StopFlag stop{ask};
+
+  CalledBack() {
+    WorldOptions options;
+    if (GetParam() == "Task") options.executor = &calling;
+    if (GetParam() == "StopInATask") options.executor = &threads;
+    if (GetParam() != "Task") options.stop = &stop;
+    world = World(options);
+    ids = world.add(boxes);
+  }
+
+  /// Not again by the callbacks of the calls that it makes.
+  void callOnce() {
+    thread_local bool isCalling = false;
+    if (!isOn || std::exchange(isCalling, true)) return;
+    if (isRefused([&] { static_cast<void>(world.findFirst(Ray{})); })) {
+      ++refused;
+      EXPECT_TRUE(isRefused([&] { world.move(0, boxes[0]); }));
+    }
+    EXPECT_EQ(world.box(1), boxes[1]);
+    EXPECT_TRUE(world.contains(2));
+    isCalling = false;
+  }
+};
+
+INSTANTIATE_TEST_SUITE_P(By, CalledBack, ::testing::Values("Task", "Stop", "StopInATask"),
+                         [](const auto& given) { return given.param; });
+
+TEST_P(CalledBack, AStepRefusesAQueryUntilItHasUpdatedTheHierarchies) {
+  isOn = true;
+  static_cast<void>(world.step());
+  EXPECT_GT(refused, 0U);
+  isOn = false;
+  World other;
+  static_cast<void>(other.add(boxes));
+  static_cast<void>(other.step());
+  const std::vector<Box> moved = test::toDouble(test::randomBoxes(20000, 86));
+  for (World* each : {&world, &other}) each->move(ids, moved);
+  boxes = moved;
+  isOn = true;
+  refused = 0;
+  test::compareLists(world.step(), other.step());
+  EXPECT_GT(refused, 0U);
+}
+
+TEST_P(CalledBack, AQueryThatUpdatesTheHierarchiesRefusesAnother) {
+  isOn = true;
+  const std::vector<BoxId> found = world.findOverlapping(boxes[7]);
+  isOn = false;
+  EXPECT_GT(refused, 0U);
+  EXPECT_EQ(found, world.findOverlapping(boxes[7]));
+  EXPECT_EQ(world.step().pairs.size(), countOverlaps(boxes));
 }
 
 TEST_F(CallbackOfWorld, AnotherWorldMayBeUsedByAccept) {
@@ -394,31 +481,6 @@ TEST(MovedFrom, AWorldIsAsNew) {
   EXPECT_EQ(second.findBetween(first).size(), 0U);
   EXPECT_EQ(second.findBetween(fifth).size(), 1U);
   // NOLINTEND(bugprone-use-after-move)
-}
-
-TEST(World, ABoxThatIsGivenTheBoundsThatItHasIsAskedAboutAgainOnlyIfItIsTouched) {
-  bool accepts = true;
-  WorldOptions options;
-  options.accept = [&](BoxId, BoxId) { return accepts; };
-  World world(options);
-  const Box box = test::cube(0, 0, 0);
-  const BoxId a = world.add(box);
-  world.add(box);
-  EXPECT_EQ(world.step().pairs.size(), 1U);
-  accepts = false;
-  world.move(a, box);
-  EXPECT_EQ(world.step().pairs.size(), 1U);
-  world.invalidate({&a, 1});
-  EXPECT_EQ(world.step().ended.size(), 1U);
-}
-
-TEST(World, RoomMayBeMadeBetweenAMoveAndAStep) {
-  World world;
-  const std::vector<BoxId> ids = world.add(test::lent(std::vector{test::cube(0, 0, 0), test::cube(5, 0, 0)}));
-  EXPECT_EQ(world.step().pairs.size(), 0U);
-  world.move(ids[1], test::cube(0.5, 0, 0));
-  world.reserve(100000);
-  EXPECT_EQ(world.step().pairs.size(), 1U);
 }
 
 }  // namespace

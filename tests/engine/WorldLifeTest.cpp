@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Large worlds with numbers whose boxes come, go and change, against an oracle.
+// Large worlds with numbers whose boxes come, go and change, against an oracle; and changes of a few boxes.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -156,6 +156,31 @@ TEST(WorldLife, FewBoxesEndAWorldWhileAnotherBegins) {
     ASSERT_NO_FATAL_FAILURE(worlds.compareQueries());
     ASSERT_NO_FATAL_FAILURE(worlds.compareStep());
   }
+}
+
+TEST(World, ABoxThatIsGivenTheBoundsThatItHasIsAskedAboutAgainOnlyIfItIsTouched) {
+  bool accepts = true;
+  WorldOptions options;
+  options.accept = [&](BoxId, BoxId) { return accepts; };
+  World world(options);
+  const Box box = test::cube(0, 0, 0);
+  const BoxId a = world.add(box);
+  world.add(box);
+  EXPECT_EQ(world.step().pairs.size(), 1U);
+  accepts = false;
+  world.move(a, box);
+  EXPECT_EQ(world.step().pairs.size(), 1U);
+  world.invalidate({&a, 1});
+  EXPECT_EQ(world.step().ended.size(), 1U);
+}
+
+TEST(World, RoomMayBeMadeBetweenAMoveAndAStep) {
+  World world;
+  const std::vector<BoxId> ids = world.add(test::lent(std::vector{test::cube(0, 0, 0), test::cube(5, 0, 0)}));
+  EXPECT_EQ(world.step().pairs.size(), 0U);
+  world.move(ids[1], test::cube(0.5, 0, 0));
+  world.reserve(100000);
+  EXPECT_EQ(world.step().pairs.size(), 1U);
 }
 
 }  // namespace

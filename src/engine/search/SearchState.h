@@ -33,8 +33,11 @@ class InUse {
 
   /// Throws InvalidArgument, which names the kind of object, if the object is running.
   void check(const char* object) const {
-    if (m_scopes.load(std::memory_order_relaxed) != 0)
-      throw InvalidArgument(std::string(object) + " is called by its own filter, visitor, stop or task");
+    if (m_scopes.load(std::memory_order_relaxed) != 0) refuse(object);
+  }
+
+  [[noreturn]] static void refuse(const char* object) {
+    throw InvalidArgument(std::string(object) + " is called by its own filter, visitor, stop or task");
   }
 
  private:

@@ -13,6 +13,7 @@
 #include "search/SearchState.h"
 #include "world/BoxStore.h"
 #include "world/QueryTests.h"
+#include "world/WorkingThreads.h"
 #include "world/WorldQueries.h"
 #include "world/WorldSearch.h"
 
@@ -94,7 +95,13 @@ struct World::State {
 
   /// Updates the hierarchies for queries, once after each change.
   void settle() {
-    doOnce(isSettled, [this] { search.update(store); });
+    if (isSettled.load(std::memory_order_acquire)) return;
+    inUse.check("World");  // Only a step that has not updated them yet leaves them so.
+    doOnce(isSettled, [this] {
+      if (options.executor == nullptr) return search.update(store, nullptr);
+      engine::WorkingExecutor executor(working, *options.executor);
+      search.update(store, &executor);
+    });
   }
 
   /// Groups the lists of the last step by world, once after each step.
@@ -102,12 +109,14 @@ struct World::State {
     doOnce(isGrouped, [this] { search.groupLists(); });
   }
 
-  /// Does what is not done yet; concurrent const members wait for it.
+  /// Does what is not done yet; concurrent const members wait for it, but not those that its own callbacks call.
   template <class Work>
   void doOnce(std::atomic<bool>& isDone, const Work& work) {
     if (isDone.load(std::memory_order_acquire)) return;
+    if (working.haveThis()) engine::InUse::refuse("World");
     const std::lock_guard lock(settling);
     if (isDone.load(std::memory_order_relaxed)) return;
+    const engine::WorkingThreads::Mark mark(working);
     work();
     isDone.store(true, std::memory_order_release);
   }
@@ -119,6 +128,7 @@ struct World::State {
   }
 
   std::mutex settling;
+  engine::WorkingThreads working;       ///< On what the mutex guards.
   std::atomic<bool> isSettled = true;   ///< Whether the hierarchies hold all changes.
   std::atomic<bool> isGrouped = false;  ///< Whether the lists of the last step are grouped by world.
 };
@@ -141,6 +151,7 @@ World& World::operator=(World&&) noexcept = default;
 World::State& World::state() {
   if (m_state == nullptr) m_state = std::move(World().m_state);
   m_state->inUse.check("World");
+  if (m_state->working.haveThis()) engine::InUse::refuse("World");
   m_state->isSettled.store(false, std::memory_order_relaxed);
   return *m_state;
 }
@@ -246,7 +257,7 @@ StepResult World::step() {
   const auto ungroup = [](std::atomic<bool>* isGrouped) { isGrouped->store(false, std::memory_order_relaxed); };
   const std::unique_ptr<std::atomic<bool>, decltype(ungroup)> after(&state.isGrouped, ungroup);
   state.isGrouped.store(false, std::memory_order_relaxed);
-  return state.search.step(state.store);
+  return state.search.step(state.store, state.isSettled);
 }
 
 StepResult World::result() const noexcept { return State::of(*this).search.result(); }

@@ -36,7 +36,7 @@ std::size_t dropDoubles(const BoxStore& store, std::span<Pair> pairs) noexcept {
 
 }  // namespace
 
-void WorldSearch::update(BoxStore& store) {
+void WorldSearch::update(BoxStore& store, Executor* on) {
   const BoxView& boxes = store.set();
   if (store.stale().empty() && m_forest.isWhole()) return;
   OverlapOptions lanes;
@@ -44,7 +44,7 @@ void WorldSearch::update(BoxStore& store) {
   lanes.distance = std::max(0.0, m_options.distance);
   const BoxReader reader(boxes, lanes, m_kernels);
   CallExecutor call;  // queries make updates, too
-  Executor& executor = begin(call);
+  Executor& executor = call.over(on, m_options.stop);
   m_members.update(store, executor);
   m_rebuilds += m_forest.update(store, m_members, reader, executor);
   store.settle();
@@ -63,7 +63,7 @@ void WorldSearch::shrink() noexcept {
   release(m_isChosen, m_chosen, m_large, m_partly, m_touchedIn, m_touched, m_runs);
 }
 
-StepResult WorldSearch::step(BoxStore& store) {
+StepResult WorldSearch::step(BoxStore& store, std::atomic<bool>& isUpdated) {
   static_cast<void>(begin(m_stepExecutor));
   m_history.dropChanges();
   m_lists.prepareStep(store);
@@ -76,7 +76,10 @@ StepResult WorldSearch::step(BoxStore& store) {
   moveLarge();
   // Small worlds are searched without hierarchies; but `accept` may ask queries.
   const bool joinsTrees = !m_large.empty() || (!m_partly.empty() && !m_small.takesChanged());
-  if (joinsTrees || m_options.accept) update(store);
+  if (joinsTrees || m_options.accept) {
+    update(store, m_options.executor);
+    isUpdated.store(true, std::memory_order_release);
+  }
   m_statistics.boxTests = 0;
   m_statistics.groupTests = 0;
   m_statistics.exactTests = 0;

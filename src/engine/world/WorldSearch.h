@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -32,11 +33,11 @@ class WorldSearch {
   WorldSearch(std::pmr::memory_resource* memory, const WorldOptions& options, const Kernels& kernels)
       : m_memory(memory), m_options(options), m_kernels(kernels) {}
 
-  /// Updates the hierarchies from the store.
-  void update(BoxStore& store);
+  /// Updates the hierarchies from the store, with tasks on an executor, or null for the calling thread.
+  void update(BoxStore& store, Executor* on);
 
-  /// Finds the current pairs.
-  StepResult step(BoxStore& store);
+  /// Finds the current pairs. Says from when on queries may be asked, if it updates the hierarchies.
+  StepResult step(BoxStore& store, std::atomic<bool>& isUpdated);
 
   /// Releases all memory except that of the last step's result.
   void shrink() noexcept;
