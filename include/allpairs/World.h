@@ -86,7 +86,8 @@ class World {
   /// If one of the two is empty, only the other counts.
   void moveSwept(Span<const BoxId> ids, const BoxView& starts, const BoxView& ends);
 
-  /// The same, with the end computed from velocities, in rows of three: start + velocity * duration, in double.
+  /// The same, with the end computed from velocities, in rows of three: start + velocity * duration, in double. An
+  /// empty start stays as it is.
   ///
   /// Bad input: a velocity that is not finite throws InvalidBox, and so does a motion of an infinite box that overflows
   ///            and gives a NaN; a duration that is not finite throws InvalidArgument.

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <random>
@@ -181,6 +182,16 @@ TEST(World, RoomMayBeMadeBetweenAMoveAndAStep) {
   world.move(ids[1], test::cube(0.5, 0, 0));
   world.reserve(100000);
   EXPECT_EQ(world.step().pairs.size(), 1U);
+}
+
+TEST(World, AnEmptyBoxThatMovesByAVelocityStaysEmpty) {
+  World world;
+  const BoxId id = world.add(test::cube(0, 0, 0));
+  static_cast<void>(world.add(Box{{1e10, 0, 0}, {1e10, 1, 1}}));
+  const Box empty{{0.5, 0, 0}, {0.4999999999, 1, 1}};  // At 1e10 its bounds are rounded to one number.
+  world.moveSwept({&id, 1}, test::lent(std::array{empty}), std::array{1e10, 0.0, 0.0}, 1.0);
+  EXPECT_TRUE(isEmpty(world.box(id)));
+  EXPECT_TRUE(world.step().pairs.empty());
 }
 
 }  // namespace

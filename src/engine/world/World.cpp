@@ -217,7 +217,8 @@ void World::moveSwept(Span<const BoxId> ids, const BoxView& starts, Span<const d
     }
     if (hasNan(end))
       throw InvalidBox(i, "box " + std::to_string(ids[i]) + " and its motion are infinite: it ends at a NaN");
-    swept.push_back(merge(starts[i], end));
+    // The end of an empty box may be none, by rounding.
+    swept.push_back(isEmpty(starts[i]) ? starts[i] : merge(starts[i], end));
   }
   state().store.move(ids, swept);
 }
