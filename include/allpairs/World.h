@@ -135,13 +135,13 @@ class World {
 
   /// The lists of the last step for one world: the pairs of its boxes with each other and with those of every world, in
   /// the same order. With kEveryWorld, the pairs of two boxes of every world. Empty for a number that no box
-  /// has, and had in the step before.
+  /// has or had in the step before.
   ///
   /// A box that is given another world ends its pairs there and begins them here.
   /// Cost:    O(log pairs), after a pass over all pairs in the first call after a step: cheap if ids ascend with the
-  ///          numbers of their worlds and boxes of every world were added last, else a sort with 24 bytes more per
-  ///          pair.
-  /// Threads: like a query.
+  ///          numbers of their worlds and boxes of every world were added last, else a sort, of no more than 2^32 pairs
+  ///          (LimitExceeded), with up to 50 bytes more per pair, and 75 once a box was given another world.
+  /// Threads: like a query, which a stop flag ends too.
   [[nodiscard]] StepResult result(std::uint32_t world) const;
 
   [[nodiscard]] const WorldStatistics& statistics() const noexcept;

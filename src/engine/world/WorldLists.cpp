@@ -3,13 +3,24 @@
 
 #include <algorithm>
 #include <bit>
+#include <string>
 #include <utility>
 
-#include "bvh/RadixSort.h"
+#include "allpairs/Error.h"
+#include "input/Parts.h"
 #include "order/PairSort.h"
+#include "search/CallExecutor.h"
 
 namespace allpairs::engine {
+namespace {
+
+/// A key has 32 bits for the place of a pair.
+constexpr std::uint64_t kMostSorted = std::uint64_t{1} << 32U;
+
+}  // namespace
+
 void WorldLists::prepareStep(const BoxStore& store) {
+  m_isSame = true;  // Until the step completes, it leaves the pairs without changes.
   if (m_membership == store.membership()) return;
   m_before.reserve(store.worlds().size());
 }
@@ -25,6 +36,7 @@ void WorldLists::noteStep(const BoxStore& store) noexcept {
 void WorldLists::shrink() noexcept {
   m_keyed = Buffer<std::uint64_t>(m_memory);
   m_spare = Buffer<std::uint64_t>(m_memory);
+  m_radix = RadixSort(m_memory);
   if (m_isSame) m_before = Numbers(m_memory);
   for (Grouped* list : {&m_pairs, &m_began, &m_persisted, &m_ended}) {
     if (list->pairs.data() != list->own.data()) list->own = Buffer<Pair>(m_memory);
@@ -54,14 +66,25 @@ void WorldLists::group(const StepResult& result) {
   groupOne(m_ended, m_ended.kept, m_before);
 }
 
+/// Calls use(i) for each of so many pairs, and looks at the flag before each part of them.
+template <class Use>
+void WorldLists::eachIndex(std::size_t pairs, const Use& use) const {
+  for (std::size_t begin = 0; begin < pairs; begin += kPartSize) {
+    checkStop(m_options.stop);
+    const std::size_t end = std::min(begin + kPartSize, pairs);
+    for (std::size_t i = begin; i < end; ++i) use(i);
+  }
+}
+
 /// The lists with the pairs that persist in another world among those that ended and began.
 void WorldLists::moveChanged(const StepResult& result) {
   std::pmr::vector<Pair>& persisted = m_persisted.kept;
   std::pmr::vector<Pair> moved(persisted.get_allocator());
-  for (const Pair pair : result.persisted) {
+  eachIndex(result.persisted.size(), [&](std::size_t i) {
+    const Pair pair = result.persisted[i];
     (numberOf(m_now, pair) == numberOf(m_before, pair) ? persisted : moved).push_back(pair);
-  }
-  const auto isBefore = [this](Pair a, Pair b) { return keyOf(a, m_order) < keyOf(b, m_order); };
+  });
+  const auto isBefore = [this](Pair a, Pair b) { return keyOf(a, m_options.order) < keyOf(b, m_options.order); };
   const auto mergeInto = [&](std::pmr::vector<Pair>& list, std::span<const Pair> with) {
     list.resize(moved.size() + with.size());
     std::merge(moved.begin(), moved.end(), with.begin(), with.end(), list.begin(), isBefore);
@@ -76,22 +99,24 @@ void WorldLists::groupOne(Grouped& list, std::span<const Pair> pairs, const Numb
   std::uint32_t all = 0;
   std::uint32_t last = 0;
   bool isGrouped = true;
-  for (const Pair pair : pairs) {
-    const std::uint32_t number = numberOf(numbers, pair);
+  eachIndex(pairs.size(), [&](std::size_t i) {
+    const std::uint32_t number = numberOf(numbers, pairs[i]);
     isGrouped = isGrouped && last <= number;
     last = number;
     all |= number;
-  }
+  });
   if (isGrouped) return;
+  if (pairs.size() > kMostSorted)
+    throw LimitExceeded(pairs.size(),
+                        std::to_string(pairs.size()) + " pairs are too many to be sorted by their worlds");
   m_keyed.requireAmply(pairs.size());
   m_spare.requireAmply(pairs.size());
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    m_keyed[i] = std::uint64_t{numberOf(numbers, pairs[i])} << 32U | i;
-  }
-  const unsigned end = 32 + static_cast<unsigned>(std::bit_width(all));
-  const std::uint64_t* const sorted = radixSort(m_keyed.data(), m_spare.data(), pairs.size(), 32, end);
   list.own.requireAmply(pairs.size());
-  for (std::size_t i = 0; i < pairs.size(); ++i) list.own[i] = pairs[static_cast<std::uint32_t>(sorted[i])];
+  eachIndex(pairs.size(), [&](std::size_t i) { m_keyed[i] = std::uint64_t{numberOf(numbers, pairs[i])} << 32U | i; });
+  const unsigned end = 32 + static_cast<unsigned>(std::bit_width(all));
+  CallExecutor call;
+  m_radix.sort(m_keyed.data(), m_spare.data(), pairs.size(), 32, end, call.over(nullptr, m_options.stop));
+  eachIndex(pairs.size(), [&](std::size_t i) { list.own[i] = pairs[static_cast<std::uint32_t>(m_spare[i])]; });
   list.pairs = {list.own.data(), pairs.size()};
 }
 

@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
-#include "allpairs/OverlapOptions.h"
 #include "allpairs/Pair.h"
 #include "allpairs/WorldTypes.h"
+#include "bvh/RadixSort.h"
 #include "memory/Memory.h"
 #include "world/BoxStore.h"
 
@@ -21,9 +21,9 @@ namespace allpairs::engine {
 /// the other one is of every world, has ended there and begun here.
 class WorldLists {
  public:
-  WorldLists(std::pmr::memory_resource* memory, Order order) : m_memory(memory), m_order(order) {}
+  WorldLists(std::pmr::memory_resource* memory, const WorldOptions& options) : m_memory(memory), m_options(options) {}
 
-  /// Allocates what noteStep() needs.
+  /// A step begins. Allocates what noteStep() needs.
   void prepareStep(const BoxStore& store);
 
   /// A step is about to complete with the boxes of the store.
@@ -51,14 +51,17 @@ class WorldLists {
   };
 
   static std::uint32_t numberOf(const Numbers& numbers, Pair pair) noexcept;
+  template <class Use>
+  void eachIndex(std::size_t pairs, const Use& use) const;
   void moveChanged(const StepResult& result);
   void groupOne(Grouped& list, std::span<const Pair> pairs, const Numbers& numbers);
   [[nodiscard]] static std::span<const Pair> part(const Grouped& list, std::uint32_t world) noexcept;
 
   std::pmr::memory_resource* m_memory;
-  Order m_order;
+  const WorldOptions& m_options;
   std::uint64_t m_membership = 0;
-  bool m_isSame = true;        ///< All boxes of the step before the last one had the worlds that they have now.
+  /// All boxes of the step before the last one had the worlds that they have now; or there are no changes to tell.
+  bool m_isSame = true;
   Numbers m_now{m_memory};     ///< By id, in the last step; 0 beyond the end.
   Numbers m_before{m_memory};  ///< In the one before, if they were others.
   Grouped m_pairs{m_memory};
@@ -67,6 +70,7 @@ class WorldLists {
   Grouped m_ended{m_memory};
   Buffer<std::uint64_t> m_keyed{m_memory};
   Buffer<std::uint64_t> m_spare{m_memory};
+  RadixSort m_radix{m_memory};
 };
 
 }  // namespace allpairs::engine

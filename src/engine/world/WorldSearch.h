@@ -110,7 +110,7 @@ class WorldSearch {
   std::pmr::vector<std::size_t> m_runs{m_memory};
   JoinRunner m_runner{m_memory};
   PairHistory m_history{m_memory, m_options, m_kernels};
-  WorldLists m_lists{m_memory, m_options.order};
+  WorldLists m_lists{m_memory, m_options};
   WorldStatistics m_statistics;
   std::uint64_t m_rebuilds = 0;  ///< Also by queries since the last step, while others may read the statistics.
 };
