@@ -153,6 +153,24 @@ TEST_F(WorldResource, ASteadyStateAsksOperatorNewForNothing) {
   EXPECT_EQ(test::allocationCount(), before);
 }
 
+TEST_F(WorldResource, StepsTakeNoMoreForEachBoxThanIsPromised) {
+  std::vector<Box> boxes;
+  for (std::size_t i = 0; i < 30000; ++i) boxes.push_back(test::cube(2.0 * static_cast<double>(i), 0, 0));
+  world.reserve(boxes.size());
+  ids = world.add(boxes);
+  static_cast<void>(world.step());
+  std::vector<BoxId> chosen;  // Nearly as many as are joined by themselves, some of each block.
+  for (const BoxId id : ids) {
+    if (id % 100 < 24) chosen.push_back(id);
+  }
+  std::vector<Box> moved;
+  for (const BoxId id : chosen) moved.push_back(test::cube(2.0 * static_cast<double>(id), 1, 0));
+  world.move(chosen, moved);
+  static_cast<void>(world.step());
+  ASSERT_FALSE(world.statistics().joinedAll);
+  EXPECT_LT(memory.held(), 200 * boxes.size() + 200'000);
+}
+
 TEST_F(WorldResource, AShrunkWorldKeepsItsBoxesAndPairsAndGoesOn) {
   live();
   const StepResult result = world.result();

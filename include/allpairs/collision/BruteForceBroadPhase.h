@@ -92,7 +92,7 @@ class BruteForceBroadPhase : public BroadPhaseDetection {
   [[nodiscard]] Strategy getStrategy() const;
 
   /// Whether Strategy::Automatic keeps boxes and pairs between steps; on by default. The cost of a step then depends on
-  /// how many models move. The result does not change; memory is up to 200 bytes per model and 70 per pair.
+  /// how many models move. The result does not change; memory is up to 300 bytes per model and 70 per pair.
   void setKeepsSearch(bool keeps);
   [[nodiscard]] bool getKeepsSearch() const;
 

@@ -31,7 +31,9 @@ void ChangedBoxes::gather(std::span<const BoxId> changed, const WorldForest& for
     m_marked[place / 64] |= std::uint64_t{1} << (place % 64);
     ++m_size;
   }
-  m_levels.reset(std::max(m_levels.capacity(), kFanOut * (m_size + m_size / 4)));
+  // At most a block for each box, and no more blocks than they come from.
+  const std::size_t most = std::min(kFanOut * (m_size + m_size / 4), from.capacity());
+  m_levels.reset(std::max(m_levels.capacity(), most));
   m_levels.resize(0);
   m_sourceBlock = static_cast<std::size_t>(-1);
   forEachBit(m_marked, [&](std::size_t place) { append(source, place); });

@@ -64,6 +64,9 @@ class DynamicBvh {
   [[nodiscard]] std::size_t size() const noexcept { return m_size + m_fresh.size(); }
   [[nodiscard]] std::size_t places() const noexcept { return m_levels.places(); }
 
+  /// The number of places that it has memory for.
+  [[nodiscard]] std::size_t capacity() const noexcept { return m_levels.capacity(); }
+
   /// Whether the lanes of all boxes are exactly the boxes, for certain.
   [[nodiscard]] bool exact() const noexcept { return m_isExact; }
 
