@@ -88,7 +88,7 @@ class PreparedCall {
   PreparedCall(allpairs_search* search, const allpairs_set* first, const allpairs_set* second) : m_call(search) {
     const allpairs_search& handle = m_call.handle();
     OverlapOptions options = handle.overlaps.options();
-    options.filter.first = bitsOf(handle.first, required(first, "set").boxes.size());
+    options.filter.first = bitsOf(handle.first, required(first, second == nullptr ? "set" : "first").boxes.size());
     options.filter.second = bitsOf(handle.second, (second == nullptr ? first : second)->boxes.size());
     m_call.handle().overlaps.setOptions(std::move(options));
     m_noted.emplace(m_call.handle(), m_call.handle().overlaps);

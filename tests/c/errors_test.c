@@ -69,6 +69,8 @@ static void settingsThatMakeNoSenseAreRefused(void) {
   ALLPAIRS_CHECK(allpairs_find(search, set, NULL) == ALLPAIRS_INVALID_ARGUMENT && checkSays("pairs is null"));
   ALLPAIRS_CHECK(allpairs_find_between(search, set, set, NULL) == ALLPAIRS_INVALID_ARGUMENT &&
                  checkSays("pairs is null"));
+  ALLPAIRS_CHECK(allpairs_find_between(search, NULL, set, &pairs) == ALLPAIRS_INVALID_ARGUMENT &&
+                 checkSays("first is null"));
   ALLPAIRS_CHECK(allpairs_find_neighbors(search, set, ALLPAIRS_HALF_ROWS, NULL) == ALLPAIRS_INVALID_ARGUMENT);
   ALLPAIRS_CHECK(allpairs_find_neighbors_between(search, set, set, NULL) == ALLPAIRS_INVALID_ARGUMENT);
   ALLPAIRS_CHECK(allpairs_count(search, set, NULL) == ALLPAIRS_INVALID_ARGUMENT && checkSays("count is null"));

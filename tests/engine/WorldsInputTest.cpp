@@ -230,6 +230,16 @@ TEST(WorldsInput, ADistanceOrARegionThatIsNoneIsRefusedHoweverSmallTheWorlds) {
   EXPECT_THROW(static_cast<void>(overlapsInWorlds(worlds, options)), InvalidArgument);
 }
 
+TEST(WorldsInput, AnOrderThatIsNoneIsRefusedWithSharedBoxesToo) {
+  const std::vector<BoxF> boxes(4);
+  const Worlds worlds = Worlds::ofEqualSize(boxes, 2);
+  OverlapOptions options;
+  options.order = static_cast<Order>(77);
+  EXPECT_THROW(static_cast<void>(overlapsInWorlds(worlds, options)), InvalidArgument);
+  EXPECT_THROW(static_cast<void>(overlapsInWorlds(worlds, boxes, options)), InvalidArgument);
+  EXPECT_THROW(static_cast<void>(countOverlapsInWorlds(worlds, boxes, options)), InvalidArgument);
+}
+
 TEST(MovedFrom, AWorldsSearchIsAsNew) {
   OverlapOptions options;
   options.distance = 100.0;

@@ -50,7 +50,7 @@ void takeByWorld(std::span<const Pair> pairs, const Worlds& worlds, std::pmr::ve
 
 OverlapOptions SharedSearcher::optionsForAll(const Worlds& worlds, const OverlapOptions& options) {
   OverlapOptions all = options;
-  all.order = Order::ByFirst;
+  if (all.order <= Order::Unordered) all.order = Order::ByFirst;  // Another is none, and refused.
   FilterBits& bits = all.filter.first;
   bits.categories = valuesOfAll(bits.categories, worlds, "categories", m_categories);
   bits.masks = valuesOfAll(bits.masks, worlds, "masks", m_masks);
