@@ -87,7 +87,7 @@ struct StepResult {
   Span<const Pair> ended;      ///< Pairs of the last step that no longer exist; their boxes may have been removed.
 };
 
-/// Statistics of the last step of a World, and of all steps.
+/// Statistics of the last step of a World, and of all steps. After a step that threw they mean nothing.
 struct WorldStatistics {
   std::uint64_t boxTests = 0;    ///< Tests of two boxes, each in one lane of a vector.
   std::uint64_t groupTests = 0;  ///< Tests of the bounds of two groups, or of a box and a group.
