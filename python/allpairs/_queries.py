@@ -155,6 +155,7 @@ class WorldQueries:
         points : array_like, shape (n, 3) or (3,); in the plane (n, 2) or (2,)
             Or boxes, shape (n, 6) or (6,); in the plane (n, 4) or (4,). An empty box is near nothing.
         k : int
+            The arrays have as many columns, and take 12 bytes for each entry, however few boxes there are.
 
         The others are those of `overlapping`.
 

@@ -267,7 +267,7 @@ class World(WorldQueries):
 
     def __contains__(self, id: object) -> bool:
         single = id.item() if type(id) is np.ndarray and id.ndim == 0 else id  # no masked one, whose number is hidden
-        number = int(single) if isinstance(single, (int, np.integer)) else -1
+        number = int(single) if isinstance(single, (int, np.integer)) and not isinstance(single, bool) else -1
         return 0 <= number < NO_BOX and self._core.contains(number)
 
     def ids(self) -> Ids:

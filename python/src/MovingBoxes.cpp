@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
+#include <new>
 #include <string>
 #include <utility>
 
@@ -296,10 +298,14 @@ py::tuple MovingBoxes::state() {
 
 py::tuple MovingBoxes::step() {
   Lists lists;
-  bool isDone = false;
+  std::uint64_t done = 0;  // the number of the step, which is not repeated if only copying is
   search(0, [&](World& world) {
-    if (!isDone) static_cast<void>(world.step());
-    isDone = true;  // and is not repeated if only copying is
+    if (done == 0) {
+      const std::uint64_t number = ++m_steps;
+      static_cast<void>(world.step());
+      done = number;
+    }
+    if (done != m_steps) throw Error("the lists of this step are gone: there was another while a signal was handled");
     lists = copyOf(world.result(), m_stop.flag());
   });
   return std::move(lists).arrays();
@@ -366,10 +372,11 @@ py::tuple MovingBoxes::nearest(const py::buffer& queries, std::size_t count, con
   Found found;
   search(size, [&](World& world) {
     const std::span<const double> rows = valuesOf<double>(info);
-    found.ids.assign(size * count, kNoBox);
-    found.numbers.assign(size * count, std::numeric_limits<double>::infinity());
     const ResultLists<Neighbor> lists = areBoxes ? world.findNearest(BoxView::fromRows(rows), count, filter)
                                                  : world.findNearest(pointsOf(rows), count, filter);
+    if (size != 0 && count > found.numbers.max_size() / size) throw std::bad_alloc();
+    found.ids.assign(size * count, kNoBox);
+    found.numbers.assign(size * count, std::numeric_limits<double>::infinity());
     for (std::size_t i = 0; i < size; ++i) {
       for (std::size_t k = 0; k < lists[i].size(); ++k) {
         found.ids[i * count + k] = lists[i][k].id;

@@ -125,6 +125,7 @@ class MovingBoxes {
   std::mutex m_mutex;
   CallFlag m_stop;
   std::atomic<std::size_t> m_size = 0;
+  std::uint64_t m_steps = 0;
   std::unique_ptr<Executor> m_executor;
   World m_world;
 };

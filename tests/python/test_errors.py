@@ -205,8 +205,14 @@ def test_what_is_no_id_is_in_no_world():
     (id,) = world.add([[0, 0, 0, 1, 1, 1]])
     assert id in world and int(id) in world and np.array(id) in world
     assert np.array(float(id)) not in world and np.array([id]) not in world
-    for other in (1, -1, 2**32 - 1, 2**40, 10**400, 0.0, "0", None):
+    for other in (1, -1, 2**32 - 1, 2**40, 10**400, 0.0, "0", None, False, np.False_, np.array(False)):
         assert other not in world
+
+
+def test_a_query_that_is_refused_takes_no_memory_for_its_result():
+    world = allpairs.World()
+    with pytest.raises(allpairs.InvalidArgument, match="point 1 is not finite"):
+        world.nearest([[0, 0, 0], [np.nan, 0, 0]], 2**31)
 
 
 def test_a_batch_may_be_of_any_size():

@@ -179,6 +179,32 @@ try:
 except KeyboardInterrupt:
     assert len(world.step().began) == 6000 * 5999 // 2
 """,
+    "a step in a handler": """
+def full():
+    world = allpairs.World()
+    world.add(few[:6000])
+    return world
+
+many = 6000 * 5999 // 2
+world = full()
+began = []
+signal.signal(signal.SIGINT, lambda *_: began.append(len(world.step().began)))
+begin = time.monotonic()
+world.step()
+whole = time.monotonic() - begin
+for part in (0.5, 0.7, 0.9):  # where the lists are copied, among others
+    world = full()
+    began.clear()
+    thread = threading.Timer(part * whole, lambda: os.kill(os.getpid(), signal.SIGINT))
+    thread.start()
+    try:
+        began.append(len(world.step().began))
+    except allpairs.Error as error:
+        assert "the lists of this step are gone" in str(error)
+        began.append(many)
+    thread.join()
+    assert sum(began) == many, began
+""",
     "detect": """
 scene = allpairs.load(sys.argv[1])
 assert len(scene) == 2500
