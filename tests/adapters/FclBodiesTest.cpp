@@ -54,6 +54,42 @@ TEST(FclBodies, OfPartsThatAreAsDeepOrAsFarAsEachOtherTheFirstIsReported) {
   }
 }
 
+/// Slanted capsules, of which the boxes of many overlap, in one of two layers.
+std::vector<collision::Capsule> slanted(std::size_t count, double z) {
+  std::vector<collision::Capsule> capsules;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double x = double(i * 37 % 101);
+    const double y = double(i * 53 % 97);
+    const double turn = double(i);
+    capsules.push_back({{x, y, z}, {x + 8 * std::cos(turn), y + 8 * std::sin(turn), z + 2 * std::cos(2 * turn)}, 0.25});
+  }
+  return capsules;
+}
+
+TEST(FclBodies, OfManyPartsTheNearestIsThatOfEachTwoAlone) {
+  for (const double z : {2.0, 5.0, 12.0}) {
+    const auto low = slanted(90, 0.0);
+    const auto high = slanted(70, z);
+    ExactPair nearest;
+    nearest.distance = std::numeric_limits<double>::infinity();
+    for (const auto& a : low) {
+      for (const auto& b : high) {
+        CapsuleModel first("first", {a});
+        CapsuleModel second("second", {b});
+        const auto pair = examine(first, second);
+        if (pair.distance < nearest.distance) nearest = pair;
+      }
+    }
+    CapsuleModel first("first", low);
+    CapsuleModel second("second", high);
+    const auto pair = examine(first, second);
+    EXPECT_EQ(pair.state, nearest.state) << z;
+    EXPECT_EQ(pair.distance, nearest.distance) << z;
+    EXPECT_EQ(pair.pointOnFirst, nearest.pointOnFirst) << z;
+    EXPECT_EQ(pair.pointOnSecond, nearest.pointOnSecond) << z;
+  }
+}
+
 TEST(FclBodies, OneThatHasVolumeGivesTheDepthAPlace) {
   SphereModel first("first", {{0, 0, 0}, {10, 0, 0}}, {1.0, 0.0});
   SphereModel second("second", {{0, 0, 1.5}, {10, 0, 0}}, {1.0, 0.0});

@@ -163,27 +163,30 @@ bool addAnyOf(ExactBody& body, const CollisionModel& model) {
   return (addIf<Models>(body, model) || ...);
 }
 
-/// From the origin to the farthest coordinate.
-double reachOf(const ExactBody& body) {
-  double reach = 0.0;
-  for (const auto& part : body.parts) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      reach = std::max({reach, std::abs(part->box().min[axis]), std::abs(part->box().max[axis])});
-    }
+Box thickened(const ExactPart& part) {
+  Box box = part.box();
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    box.min[axis] -= part.radius();
+    box.max[axis] += part.radius();
   }
-  return reach;
+  return box;
 }
 
-double extentOf(const ExactBody& body) {
-  Box box = kEmptyBox;
+/// Finds how far the parts reach.
+void measure(ExactBody& body) {
   double radius = 0.0;
+  body.boxes.reserve(body.parts.size());
   for (const auto& part : body.parts) {
-    box = merge(box, part->box());
+    body.box = merge(body.box, part->box());
+    body.boxes.push_back(thickened(*part));
     radius = std::max(radius, part->radius());
   }
-  double extent = 0.0;
-  for (std::size_t axis = 0; axis < 3; ++axis) extent = std::max(extent, box.max[axis] - box.min[axis]);
-  return extent + 2.0 * radius;
+  if (body.parts.empty()) return;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    body.extent = std::max(body.extent, body.box.max[axis] - body.box.min[axis]);
+    body.reach = std::max({body.reach, std::abs(body.box.min[axis]), std::abs(body.box.max[axis])});
+  }
+  body.extent += 2.0 * radius;
 }
 
 }  // namespace
@@ -193,9 +196,8 @@ ExactBody makeBody(const CollisionModel& model) {
   ExactBody body;
   const bool isKnown = addAnyOf<TriangleModel, LineModel, PointModel, TetrahedronModel, BoxModel, OrientedBoxModel,
                                 SphereModel, CapsuleModel>(body, *model.getLast());
-  body.extent = extentOf(body);
+  measure(body);
   body.isKnown = body.isKnown && isKnown && (body.extent == 0.0 || body.extent >= kSmallest);
-  body.reach = reachOf(body);
   return body;
 }
 

@@ -11,6 +11,7 @@
 #include "Enclosure.h"
 #include "ExactBody.h"
 #include "Meeting.h"
+#include "PartSearch.h"
 #include "allpairs/Error.h"
 
 namespace allpairs {
@@ -19,6 +20,8 @@ namespace {
 using exact::ExactBody;
 using exact::ExactPart;
 using exact::Meeting;
+using exact::PartPair;
+using exact::PartSearch;
 
 /// Evenly sampled, at most so many.
 template <class To, class From, class Convert>
@@ -32,9 +35,10 @@ class PairReport {
  public:
   PairReport(ExactPair& pair, const ExactOptions& options) : m_pair(pair), m_options(options) {}
 
-  /// Whether parts that are at least so far apart change nothing that is reported.
-  [[nodiscard]] bool isBeyond(double distance) const {
-    return !m_isFirst && distance > (isMet() ? 0.0 : m_best.distance);
+  /// Parts that are further apart change nothing that is reported.
+  [[nodiscard]] double limit() const {
+    if (m_isFirst) return std::numeric_limits<double>::infinity();
+    return isMet() ? 0.0 : m_best.distance;
   }
 
   void add(const ExactPart& first, const ExactPart& second, Meeting meeting) {
@@ -43,6 +47,7 @@ class PairReport {
     if (meeting.isSecondWithin) m_within.insert(&second);
     m_hasVolume = m_hasVolume || meeting.hasVolume;
     m_isCrossed = m_isCrossed || meeting.isCrossed;
+    m_mayHold = m_mayHold || mayHold(first, second) || mayHold(second, first);
     const bool isBetter =
         m_isFirst || rank(meeting) > rank(m_best) ||
         (rank(meeting) == rank(m_best) && (meeting.depth > m_best.depth || meeting.distance < m_best.distance));
@@ -76,14 +81,14 @@ class PairReport {
   static int rank(const Meeting& meeting) { return meeting.isDeep ? 2 : (meeting.surfacesMeet ? 1 : 0); }
 
   [[nodiscard]] ExactState stateOf(const ExactBody& first, const ExactBody& second) const {
-    if (!isMet()) return stateOfApart(first, second);
+    if (!isMet()) return stateOfApart();
     if (m_anyIsDeep && (isWithin(first) || isWithin(second))) return ExactState::Contained;
     const bool isShallow = m_anyIsDeep && m_best.depth <= m_options.leastDepth;
     return (m_anyIsDeep || m_isCrossed) && !isShallow ? ExactState::Clash : ExactState::Touching;
   }
 
-  [[nodiscard]] ExactState stateOfApart(const ExactBody& first, const ExactBody& second) const {
-    if (mayHold(first, second) || mayHold(second, first)) return ExactState::Undecided;
+  [[nodiscard]] ExactState stateOfApart() const {
+    if (m_mayHold) return ExactState::Undecided;
     const bool isNear = m_options.clearance > 0.0 && m_best.distance <= m_options.clearance;
     return isNear ? ExactState::WithinClearance : ExactState::Apart;
   }
@@ -93,13 +98,10 @@ class PairReport {
                        [this](const auto& part) { return m_within.count(part.get()) != 0; });
   }
 
-  /// Whether a part of the inner body lies within the box of an open surface, of which nobody can tell the inside.
-  static bool mayHold(const ExactBody& outer, const ExactBody& inner) {
-    return std::any_of(outer.parts.begin(), outer.parts.end(), [&inner](const auto& surface) {
-      return surface->isOpen() && std::any_of(inner.parts.begin(), inner.parts.end(), [&surface](const auto& part) {
-               return exact::holds(surface->box(), part->box(), -part->radius());
-             });
-    });
+  /// Whether a part lies within the box of an open surface, of which nobody can tell the inside. The boxes meet, so that
+  /// all such parts are added.
+  static bool mayHold(const ExactPart& outer, const ExactPart& inner) {
+    return outer.isOpen() && exact::holds(outer.box(), inner.box(), -inner.radius());
   }
 
   void addContacts(const Meeting& meeting) {
@@ -117,56 +119,37 @@ class PairReport {
   bool m_anyIsDeep = false;
   bool m_isCrossed = false;
   bool m_hasVolume = false;
+  bool m_mayHold = false;
   std::unordered_set<const ExactPart*> m_within;
   std::vector<exact::Point> m_points;
   std::vector<std::array<exact::Point, 2>> m_lines;
 };
 
-struct PartPair {
-  double distance = 0.0;
-  const ExactPart* first = nullptr;
-  const ExactPart* second = nullptr;
-};
-
-/// All parts of one body with all of the other, those with the nearest boxes first.
-std::vector<PartPair> partPairs(const ExactBody& first, const ExactBody& second) {
-  std::vector<PartPair> pairs;
-  for (const auto& a : first.parts) {
-    for (const auto& b : second.parts) pairs.push_back({exact::boxDistance(*a, *b), a.get(), b.get()});
-  }
-  std::stable_sort(pairs.begin(), pairs.end(),
-                   [](const PartPair& a, const PartPair& b) { return a.distance < b.distance; });
-  return pairs;
-}
-
-/// Whether each part of one body is there in the other as well.
-bool areSame(const ExactBody& first, const ExactBody& second, double tolerance) {
-  const auto isPartOf = [tolerance](const ExactBody& body) {
-    return [&body, tolerance](const auto& part) {
-      return std::any_of(body.parts.begin(), body.parts.end(),
-                         [&part, tolerance](const auto& other) { return exact::areSame(*part, *other, tolerance); });
-    };
-  };
-  return first.parts.size() == second.parts.size() &&
-         std::all_of(first.parts.begin(), first.parts.end(), isPartOf(second)) &&
-         std::all_of(second.parts.begin(), second.parts.end(), isPartOf(first));
-}
-
 /// Duplicates meet everywhere: what is reported is all of them.
 void reportSame(const ExactBody& body, ExactPair& pair) {
   pair.state = ExactState::Duplicate;
-  for (const auto& part : body.parts) {
-    Box box = part->box();
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      box.min[axis] -= part->radius();
-      box.max[axis] += part->radius();
-    }
-    pair.contactBox = merge(pair.contactBox, box);
-    pair.contactCount += part->triangles().size();
-  }
+  for (const Box& box : body.boxes) pair.contactBox = merge(pair.contactBox, box);
+  for (const auto& part : body.parts) pair.contactCount += part->triangles().size();
   for (std::size_t axis = 0; axis < 3; ++axis)
     pair.pointOnFirst[axis] = pair.contactBox.min[axis] / 2.0 + pair.contactBox.max[axis] / 2.0;
   pair.pointOnSecond = pair.pointOnFirst;
+}
+
+/// Looks at parts whose boxes are apart, nearer ones first, until no more can change what is reported.
+void lookAtApart(PartSearch& search, const PairReport& report, FunctionRef<void(const PartPair&)> look) {
+  PartPair last;
+  double limit = std::min(report.limit(), search.likelyLimit());
+  while (true) {
+    const std::vector<PartPair> pairs = search.after(last, limit);
+    for (const PartPair& parts : pairs) {
+      if (parts.distance > report.limit()) return;
+      look(parts);
+    }
+    if (!pairs.empty()) last = pairs.back();
+    if (pairs.size() >= PartSearch::kMost) continue;  // perhaps not all within the limit
+    if (report.limit() <= limit) return;
+    limit = report.limit();
+  }
 }
 
 bool isAnyOpen(const ExactBody& body) {
@@ -206,12 +189,16 @@ struct FclNarrowPhase::State {
     const double rounding = kRoundings * std::numeric_limits<double>::epsilon() * std::max(first.reach, second.reach);
     const exact::Tolerances tolerances{std::max(options.tolerance * extent, rounding),
                                        std::max(options.duplicateTolerance * extent, rounding)};
-    if (areSame(first, second, tolerances.same)) return reportSame(first, pair);
+    if (exact::areSame(first, second, tolerances.same)) return reportSame(first, pair);
     PairReport report(pair, options);
-    for (const PartPair& parts : partPairs(first, second)) {
-      if (report.isBeyond(parts.distance)) break;
-      report.add(*parts.first, *parts.second, exact::meet(*parts.first, *parts.second, tolerances));
-    }
+    const auto look = [&](const PartPair& parts) {
+      const ExactPart& a = *first.parts[parts.first];
+      const ExactPart& b = *second.parts[parts.second];
+      report.add(a, b, exact::meet(a, b, tolerances));
+    };
+    PartSearch search(first, second);
+    search.visitMeeting(look);
+    if (report.limit() > 0.0) lookAtApart(search, report, look);
     report.finish(first, second);
   }
 };

@@ -47,11 +47,16 @@ std::vector<int> crossingsOf(const ExactPart& part, const std::vector<std::uint3
     boxes.push_back(part.triangleBoxes()[number]);
     numbers.push_back(number);
   }
-  OverlapSearch search;
-  for (const Pair& pair : search.find(std::span<const Box>(rays), std::span<const Box>(boxes))) {
-    const int found = crossing(part.triangles()[numbers[pair.second]], points[pair.first]);
-    counts[pair.first] += byWay ? found : std::abs(found);
-  }
+  const auto count = [&](Span<const Pair> pairs) {
+    for (const auto& [ray, box] : pairs) {
+      const int found = crossing(part.triangles()[numbers[box]], points[ray]);
+      counts[ray] += byWay ? found : std::abs(found);
+    }
+  };
+  OverlapOptions options;
+  options.order = Order::Unordered;
+  // Streamed: the box of a long triangle may meet all rays.
+  streamOverlaps(std::span<const Box>(rays), std::span<const Box>(boxes), count, options);
   return counts;
 }
 

@@ -34,8 +34,9 @@ struct ExactOptions {
 
 /// A narrow phase that tests pairs of models by their shapes with the Flexible Collision Library.
 ///
-/// Triangle, tetrahedron (by their boundary), line and point models, boxes, spheres and capsules; a model of the user's
-/// own type is NotExamined. Each model's hierarchy is built when it is first in a pair, once in a step.
+/// Triangle, tetrahedron (by their boundary), line and point models, boxes, spheres and capsules, and what derives from
+/// one of these; a model of any other type is NotExamined. Each model's hierarchy is built when it is first in a pair,
+/// once in a step.
 /// Geometry:  a mesh whose triangles close (each edge is shared by as many one way as the other, or by an even number
 ///            of them) is a solid, with holes where inner surfaces face inward; any other mesh is a surface without
 ///            volume, of which nothing is guessed: whether it encloses another model is Undecided. Where models stand
@@ -44,7 +45,9 @@ struct ExactOptions {
 ///            than 500 measures of each model, or what is measured first is below a millionth of the extent.
 /// Bad input: a null model throws InvalidArgument; options that are negative or NaN too.
 /// Cost:      per pair, FCL's distance or collision of the two, and for a pair that meets a distance for each vertex
-///            that lies in the other, and up to 1,000 more.
+///            that lies in the other, and up to 1,000 more. Of models of many spheres, capsules or boxes, only those
+///            that are near each other are looked at. Where triangles are long and lie across the axes, the time grows
+///            with the product of their numbers; the memory never does.
 /// Threads:   one step at a time per object; the search for inner points runs on the calling thread.
 class FclNarrowPhase : public collision::NarrowPhaseDetection {
  public:
