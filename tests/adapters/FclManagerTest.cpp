@@ -440,5 +440,27 @@ TYPED_TEST(FclManager, NamesTheObjectWhoseBoxHasANan) {
   EXPECT_EQ(candidates(this->m_ours).size(), 2U);
 }
 
+TYPED_TEST(FclManager, ReadsAllObjectsThoughOneHasANan) {
+  using S = TypeParam;
+  const S nan = std::numeric_limits<S>::quiet_NaN();
+  BoxedObject<S> bad(S(0), S(1));
+  BoxedObject<S> worse(S(10), S(11));
+  BoxedObject<S> still(S(20), S(21));
+  BoxedObject<S> moving(S(30), S(31));
+  this->m_ours.registerObjects({&bad, &worse, &still, &moving});
+  bad.set(nan, S(1));
+  worse.set(S(10), nan);
+  for (const bool areSome : {false, true}) {
+    moving.set(areSome ? S(30) : S(20), areSome ? S(31) : S(21));
+    try {
+      areSome ? this->m_ours.update({&bad, &worse, &moving}) : this->m_ours.update();
+      FAIL() << "a NaN was taken";
+    } catch (const InvalidBox& error) {
+      EXPECT_EQ(error.index(), 0U);
+    }
+    EXPECT_EQ(candidates(this->m_ours).size(), areSome ? 0U : 1U);
+  }
+}
+
 }  // namespace
 }  // namespace allpairs::test

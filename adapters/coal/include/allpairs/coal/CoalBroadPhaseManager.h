@@ -39,8 +39,9 @@ struct CoalHost {
 /// Other managers: a query takes any manager as the other. A DynamicAABBTreeCollisionManager takes this one as the
 ///            other; no other manager of Coal may, for each takes the other for one of its own kind without asking.
 /// Geometry:  boxes are closed, in double precision. An empty box has no pairs and no distance; a flat one is a box.
-/// Bad input: a box with a NaN throws InvalidBox: an object that comes with one is not registered, one that was keeps
-///            the box that it had. No object, a null pointer, is none.
+/// Bad input: a box with a NaN throws InvalidBox: an object that comes with one is not registered, nor are those behind
+///            it in registerObjects(); one that was keeps the box that it had, and update() reads all others. No object,
+///            a null pointer, is none.
 /// Cost:      nothing is searched before it is asked for, as in FclBroadPhaseManager.
 /// Threads:   const members, queries, may be called concurrently, each with a callback of its own, while no other
 ///            member runs. A callback may query the manager, and must not register, update or unregister.

@@ -44,8 +44,9 @@ struct FclHost {
 ///            a DynamicAABBTreeCollisionManager takes this one as the other manager; size() keeps a tree for it. No
 ///            other manager of FCL may get this one: each takes the other for one of its own kind without asking.
 /// Geometry:  boxes are closed, in the precision of S. An empty box has no pairs and no distance.
-/// Bad input: a box with a NaN throws InvalidBox: an object that comes with one is not registered, one that was keeps
-///            the box that it had. No object, a null pointer, is none.
+/// Bad input: a box with a NaN throws InvalidBox: an object that comes with one is not registered, nor are those behind
+///            it in registerObjects(); one that was keeps the box that it had, and update() reads all others. No object,
+///            a null pointer, is none.
 /// Cost:      nothing is searched before it is asked for. The first collide() after a change finds the pairs, by a
 ///            search of all boxes or, where few change, by a step of allpairs::World; each further one is a pass over
 ///            them. The first queries with an object after a change scan all boxes; more, O(log n + found). A query

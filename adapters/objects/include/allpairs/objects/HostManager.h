@@ -62,7 +62,8 @@ class HostManager : public Host::Tree {
   }
 
   void update(const std::vector<Object*>& objects) override {
-    for (Object* object : objects) update(object);
+    noteTree();
+    m_objects.update(objects);
   }
 
   void clear() override {

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -37,7 +38,7 @@ struct ObjectBroadPhaseOptions {
 /// read by add() and update().
 /// Geometry:  boxes are closed, in their own precision. An empty box has no pairs and no distance.
 /// Bad input: a box with a NaN throws InvalidBox: an object that comes with one is not added, one that is there keeps
-///            the box that it had. No object, a null pointer, is none.
+///            the box that it had, and all others are read. No object, a null pointer, is none.
 /// Threads:   const members may be called concurrently while no other member runs; a visitor may call them too.
 template <class HostObject>
 class ObjectBroadPhase {
@@ -71,9 +72,14 @@ class ObjectBroadPhase {
     return number;
   }
 
-  /// Reads where all objects are now.
+  /// Reads where all objects are now, and throws the first InvalidBox when that is done.
   void update() {
-    for (BoxId number = 0; number < m_rows.bound(); ++number) refresh(number);
+    readAll(m_rows.bound(), [this](std::size_t number) { refresh(static_cast<BoxId>(number)); });
+  }
+
+  /// The same for some of them.
+  void update(Span<Object* const> objects) {
+    readAll(objects.size(), [&](std::size_t i) { update(objects[i]); });
   }
 
   /// The same for one object.
@@ -226,6 +232,19 @@ class ObjectBroadPhase {
   /// Reads where the object with this number is now.
   void refresh(BoxId number) {
     if (m_rows.read(number)) m_search.note(number);
+  }
+
+  template <class Read>
+  static void readAll(std::size_t count, const Read& read) {
+    std::optional<InvalidBox> first;
+    for (std::size_t i = 0; i < count; ++i) {
+      try {
+        read(i);
+      } catch (const InvalidBox& invalid) {
+        if (!first) first = invalid;
+      }
+    }
+    if (first) throw InvalidBox(*first);
   }
 
   [[nodiscard]] Span<const Pair> pairs() const { return m_search.pairs(m_rows.rows()); }
