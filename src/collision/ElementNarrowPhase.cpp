@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <cmath>
+#include <cstddef>
 #include <string>
 #include <utility>
 
@@ -51,12 +52,18 @@ void ElementNarrowPhase::fillBoxes(const CollisionModel& model, std::vector<Box>
 
 void ElementNarrowPhase::report(CollisionModel* first, CollisionModel* second, Span<const Pair> found,
                                 const ElementIntersector* intersector) {
-  for (const Pair& pair : found) {
-    const CollisionElementPair elements{{first, pair.first}, {second, pair.second}};
-    if (intersector == nullptr ||
-        intersector->canIntersect(elements.first, elements.second, *getIntersectionMethod())) {
-      m_pairs.push_back(elements);
+  const auto before = static_cast<std::ptrdiff_t>(m_pairs.size());
+  try {
+    for (const Pair& pair : found) {
+      const CollisionElementPair elements{{first, pair.first}, {second, pair.second}};
+      if (intersector == nullptr ||
+          intersector->canIntersect(elements.first, elements.second, *getIntersectionMethod())) {
+        m_pairs.push_back(elements);
+      }
     }
+  } catch (...) {
+    m_pairs.erase(m_pairs.begin() + before, m_pairs.end());
+    throw;
   }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -104,6 +105,27 @@ TEST_F(NarrowPhase, WhatItCannotUseIsRefused) {
   EXPECT_THROW(m_phase.setTimeStep(std::numeric_limits<double>::infinity()), InvalidArgument);
   UserModel broken({{0.0, 0.0, 0.0}, {1.0, std::numeric_limits<double>::quiet_NaN(), 1.0}});
   EXPECT_THROW(m_phase.addCollisionPair({&m_first, &broken}), InvalidBox);
+}
+
+/// Throws when it is asked about its second pair.
+class ThrowingIntersector : public BoxIntersector {
+ public:
+  bool canIntersect(const CollisionElement& /*a*/, const CollisionElement& /*b*/,
+                    const Intersection& /*method*/) const override {
+    if (m_asked++ == 1) throw Error("an intersector's own");
+    return true;
+  }
+
+ private:
+  mutable int m_asked = 0;
+};
+
+TEST_F(NarrowPhase, APairOfModelsThatThrowsLeavesNoneOfItsElements) {
+  m_method.add<BoxModel, BoxModel>(std::make_shared<ThrowingIntersector>());
+  EXPECT_THROW(m_phase.addCollisionPair({&m_first, &m_second}), Error);
+  EXPECT_TRUE(m_phase.getElementPairs().empty());
+  m_phase.addCollisionPair({&m_first, &m_second});
+  EXPECT_EQ(elementsOf(m_phase), (std::vector<IndexPair>{{0, 1}, {2, 0}}));
 }
 
 }  // namespace

@@ -41,6 +41,9 @@ class CollisionPipeline {
   /// Computes the bounding trees of the active models: in each step for those that move, once for the others.
   /// Deep only if the broad or the narrow phase needs it; over a step of length dt if the method is continuous. A model
   /// may be given by any of its levels; one that is in the list twice, by its root or its elements.
+  ///
+  /// A model that does not move keeps the tree that it has, even if another phase, method or depth would make it
+  /// another one: call its boundsChanged() after such a change.
   void computeBoundingTrees(Span<CollisionModel* const> models, double dt = 0.0);
 
   /// Runs broad and narrow phase on the models whose bounding trees were made.

@@ -69,6 +69,8 @@ class NarrowPhaseDetection {
 ///            InvalidArgument.
 /// Cost:      that of allpairs::OverlapSearch on the boxes of the elements, once per pair of models.
 /// Threads:   one step at a time per object; the search runs on the executor.
+/// Memory:    addCollisionPair() that throws, whether std::bad_alloc or an exception of an intersector, leaves the pairs
+///            as they were; addCollisionPairs() leaves those of the pairs of models before that one.
 class ElementNarrowPhase : public NarrowPhaseDetection {
  public:
   void beginNarrowPhase() override;

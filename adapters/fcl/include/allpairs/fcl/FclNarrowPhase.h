@@ -49,6 +49,7 @@ struct ExactOptions {
 ///            that are near each other are looked at. Where triangles are long and lie across the axes, the time grows
 ///            with the product of their numbers; the memory never does.
 /// Threads:   one step at a time per object; the search for inner points runs on the calling thread.
+/// Memory:    addCollisionPair() that throws std::bad_alloc leaves the pairs as they were.
 class FclNarrowPhase : public collision::NarrowPhaseDetection {
  public:
   explicit FclNarrowPhase(const ExactOptions& options = {});
