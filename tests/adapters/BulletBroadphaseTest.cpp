@@ -445,11 +445,25 @@ TEST(BulletBroadphase, OneThatIsNotEmptyIsNotReset) {
 TEST(BulletBroadphase, RefusesABoxWithANaN) {
   BulletBroadphase broadphase;
   const btScalar nan = std::numeric_limits<btScalar>::quiet_NaN();
-  EXPECT_THROW(broadphase.createProxy({nan, 0, 0}, {1, 1, 1}, 0, nullptr, 1, -1, nullptr), InvalidBox);
   auto* const proxy = addUnitCube(broadphase, 0);
+  try {
+    broadphase.createProxy({nan, 0, 0}, {1, 1, 1}, 0, nullptr, 1, -1, nullptr);
+    FAIL() << "a NaN was taken";
+  } catch (const InvalidBox& error) {
+    EXPECT_STREQ(error.what(), "the box of a new proxy has a NaN");
+  }
   EXPECT_THROW(broadphase.setAabb(proxy, {0, 0, 0}, {1, nan, 1}, nullptr), InvalidBox);
   EXPECT_EQ(proxy->m_aabbMax.y(), 1);
   broadphase.destroyProxy(proxy, nullptr);
+}
+
+TEST(BulletBroadphase, RefusesAMarginOfCharactersThatIsNone) {
+  for (const btScalar margin :
+       {btScalar(-0.2), std::numeric_limits<btScalar>::quiet_NaN(), std::numeric_limits<btScalar>::infinity()}) {
+    BulletBroadphaseOptions options;
+    options.characterMargin = margin;
+    EXPECT_THROW(BulletBroadphase{options}, InvalidArgument) << margin;
+  }
 }
 
 }  // namespace

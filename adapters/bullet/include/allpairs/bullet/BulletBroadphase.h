@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -42,8 +43,8 @@ namespace allpairs {
 ///            in double.
 /// Order:     pairs are in the order in which the cache got them, so that two runs with the same calls give the same.
 ///            With BulletBroadphaseOptions::number the order does not depend on earlier calls either.
-/// Bad input: a proxy's box with a NaN throws InvalidBox; a number that is negative or taken, and a number with a
-///            pairCache, InvalidArgument. The call then has no effect; a btCollisionWorld whose addCollisionObject()
+/// Bad input: a proxy's box with a NaN throws InvalidBox; a number that is negative or taken, a number with a pairCache,
+///            and a characterMargin that is negative or not finite, InvalidArgument. The call then has no effect; a btCollisionWorld whose addCollisionObject()
 ///            made it has the object in its list already, without a proxy: remove it from the world before the next
 ///            step.
 /// Cost:      a step of allpairs::World, Bullet's own for each pair that begins or ends, and a pass over the proxies;
@@ -60,6 +61,9 @@ class BulletBroadphase : public btBroadphaseInterface {
         m_number(options.number),
         m_world(makeWorld()),
         m_cache(options.pairCache) {
+    if (!(m_characterMargin >= 0 && std::isfinite(m_characterMargin))) {
+      throw InvalidArgument("BulletBroadphaseOptions: the margin of characters is negative or not finite");
+    }
     if (m_number && m_cache != nullptr) {
       throw InvalidArgument("BulletBroadphaseOptions: pairs are ordered by number in the broad phase's own cache only");
     }
@@ -83,6 +87,7 @@ class BulletBroadphase : public btBroadphaseInterface {
   // NOLINTNEXTLINE(readability-function-size): the parameters are Bullet's.
   btBroadphaseProxy* createProxy(const btVector3& aabbMin, const btVector3& aabbMax, int /*shapeType*/, void* userPtr,
                                  int collisionFilterGroup, int collisionFilterMask, btDispatcher* dispatcher) override {
+    if (hasNan(internal::toBox(aabbMin, aabbMax))) throw InvalidBox(0, "the box of a new proxy has a NaN");
     if (m_proxies.size() <= m_world.idBound()) m_proxies.add();
     Proxy made(aabbMin, aabbMax, userPtr, collisionFilterGroup, collisionFilterMask);
     made.m_uniqueId = 0;
