@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <new>
 #include <string>
 #include <utility>
@@ -156,6 +157,11 @@ Box boxOf(const Corners& corners) {
 }
 
 void build(Hierarchy& hierarchy, const std::vector<Corners>& triangles) {
+  constexpr std::size_t kMostTriangles = std::numeric_limits<int>::max() / 3;  // FCL counts corners in an int
+  if (triangles.size() > kMostTriangles) {
+    throw InvalidArgument("an exact test of a model of " + std::to_string(triangles.size()) + " triangles: at most " +
+                          std::to_string(kMostTriangles) + " are possible");
+  }
   const int count = static_cast<int>(triangles.size());
   int problem = hierarchy.beginModel(count, 3 * count);
   for (const Corners& corners : triangles) {

@@ -57,10 +57,12 @@ std::vector<FlushPlace> spread(const std::vector<FlushPlace>& places, std::size_
     least = least.cwiseMin(place.point);
     greatest = greatest.cwiseMax(place.point);
   }
-  const double size = std::max((greatest - least).maxCoeff(), std::numeric_limits<double>::min());
+  const double size = (greatest - least).maxCoeff();
+  const bool isOnePoint = size * size == 0.0;
+  const double scale = isOnePoint ? 0.0 : kCells / size;
   std::map<std::array<int, 6>, const FlushPlace*> ofCell;  // one of each cell and direction
   for (const FlushPlace& place : places) {
-    const Point cell = kCells / size * (place.point - least);
+    const Point cell = scale * (place.point - least);
     Eigen::Index axis = 0;
     place.normal.cwiseAbs().maxCoeff(&axis);
     const Point way = (place.normal[axis] < 0.0 ? -kWays : kWays) * place.normal;
@@ -75,7 +77,7 @@ std::vector<FlushPlace> spread(const std::vector<FlushPlace>& places, std::size_
   for (auto next = left.begin(); chosen.size() < most && next->first > 0.0;) {
     chosen.push_back(*next->second);
     for (auto& [apart, place] : left) {
-      const double way = (place->point - chosen.back().point).squaredNorm() / (size * size);
+      const double way = isOnePoint ? 0.0 : (place->point - chosen.back().point).squaredNorm() / (size * size);
       apart = std::min(apart, way + 1.0 - std::abs(place->normal.dot(chosen.back().normal)));
     }
     next->first = 0.0;
