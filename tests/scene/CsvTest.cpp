@@ -52,6 +52,8 @@ TEST(Csv, CommentsBlankLinesBlanksAndOtherLineEndsArePassedOver) {
   EXPECT_EQ(readText("# made by hand\r0.5,1,2,3,4,50\r0.5,1,2,3,4,50"), (std::vector<Named>{{"0", kBox}, {"1", kBox}}));
 }
 
+TEST(Csv, AFormFeedIsABlank) { EXPECT_EQ(readText("0.5,1,2,3,4,50\n\f\n\f# between pages\n").size(), 1U); }
+
 TEST(Csv, QuotedNamesMayHoldCommasAndQuotes) {
   EXPECT_EQ(readText(R"("a ""b"", c",0.5,1,2,3,4,50)"), (std::vector<Named>{{R"(a "b", c)", kBox}}));
 }

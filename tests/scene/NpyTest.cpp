@@ -178,6 +178,24 @@ TEST(BoxArray, ConcatenationKeepsTheOrderAndNamesTheFile) {
   EXPECT_EQ(all.name(3), "a.npy#2[0]");
 }
 
+TEST(BoxArray, ConcatenationsAreConcatenatedWithTheirNames) {
+  const TempFolder folder;
+  const auto named = [&](const std::string& file, const std::string& box) {
+    return scene::readCsv(folder.write(file, box + ",0,0,0,1,1,1\n"));
+  };
+  const auto both = [](scene::BoxArray first, scene::BoxArray second) {
+    std::vector<scene::BoxArray> arrays;
+    arrays.push_back(std::move(first));
+    arrays.push_back(std::move(second));
+    return scene::BoxArray::concatenate(std::move(arrays));
+  };
+  const scene::BoxArray all = both(both(named("a.csv", ""), named("b.csv", "right")), named("c.csv", ""));
+  EXPECT_EQ(all.name(0), "a.csv[0]");
+  EXPECT_EQ(all.name(1), "right");
+  EXPECT_EQ(all.name(2), "c.csv[0]");
+  EXPECT_EQ(both(scene::BoxArray(), named("c.csv", "only")).name(0), "only");
+}
+
 TEST(Npy, FramesAreKnownByAnExtensionInCapitalsToo) {
   const TempFolder folder;
   const std::string frames = npyBytes(someBoxes(), {.shape = "(1, 3, 6)"});

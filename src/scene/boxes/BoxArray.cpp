@@ -59,9 +59,12 @@ BoxArray BoxArray::concatenateAs(std::vector<BoxArray> arrays, std::size_t size)
   UniqueNames labels;  // files of one name may lie in several folders
   T* row = table.values.get();
   for (BoxArray& array : arrays) {
-    parts.push_back(std::move(array.m_parts.front()));
-    parts.back().label = labels.unique(parts.back().label);
-    parts.back().begin = static_cast<std::size_t>(row - table.values.get()) / 6;
+    const auto before = static_cast<std::size_t>(row - table.values.get()) / 6;
+    for (Part& part : array.m_parts) {
+      part.begin += before;
+      part.label = labels.unique(part.label);
+      parts.push_back(std::move(part));
+    }
     for (std::size_t i = 0; i < array.size(); ++i) row = writeRow(row, array.m_boxes[i]);
     array = {};
   }

@@ -118,7 +118,7 @@ class CsvReader {
   /// A line, which has more than one of the file's where a quoted name breaks.
   void readLine(std::string_view line) {
     m_place.line += 1 + std::exchange(m_breaks, static_cast<std::size_t>(std::count(line.begin(), line.end(), '\n')));
-    const std::size_t first = line.find_first_not_of(" \t\r");
+    const std::size_t first = line.find_first_not_of(kBlanks);
     if (first == std::string_view::npos || line[first] == '#') return;
     splitCsvLine(line, m_place, m_fields);
     if (m_layout.columns == 0) {
