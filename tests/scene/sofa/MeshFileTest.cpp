@@ -196,6 +196,14 @@ TEST_F(SofaMeshFile, VtkNamesWhatIsWrong) {
               HasSubstr("float and double only"));
   EXPECT_THAT(problem("a.vtu", std::string{kVtuHead} + "</Cells></Piece><Piece/></UnstructuredGrid></VTKFile>"),
               HasSubstr("several pieces"));
+  EXPECT_THAT(problem("a.vtk",
+                      "# vtk DataFile Version 3.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 float\n"
+                      "0 0 0 1 0 0 0 1 0 0 0 1\nCELLS 1 5\n4 0 1 2 3\n"),
+              HasSubstr("the list of the cells' types is missing"));
+  EXPECT_THAT(problem("a.vtu", std::string{kVtuHead} +
+                                   "<DataArray Name='connectivity'>0 1 2 3</DataArray><DataArray "
+                                   "Name='offsets'>4</DataArray></Cells></Piece></UnstructuredGrid></VTKFile>"),
+              HasSubstr("the list of the cells' types is missing"));
 }
 
 TEST_F(SofaMeshFile, OfPolygonsInXmlTrianglesAndQuadsAreFaces) {
@@ -234,6 +242,29 @@ TEST_F(SofaMeshFile, ElementsOfKindsThatSofaDoesNotReadAreCounted) {
                         "CELL_TYPES 4\n5\n13\n1\n4\n");
   EXPECT_THAT(vtk.triangles, SizeIs(1));
   EXPECT_EQ(vtk.passedOver, 2U) << "a prism and a line of several";
+  EXPECT_EQ(mesh("a.off", "OFF\n5 3 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n-1 0 0\n5 0 1 2 3 4\n3 0 1 2\n2 0 1\n").passedOver,
+            2U);
+}
+
+TEST_F(SofaMeshFile, StripsAndLinesOfAVtkSurfaceAreCounted) {
+  const auto words = [](const std::string& encoding, const std::string& numbers, const std::string& strip) {
+    return "# vtk DataFile Version 3.0\nt\n" + encoding + "\nDATASET POLYDATA\nTRIANGLE_STRIPS 1 5\n" + strip +
+           "\nPOINTS 4 float\n" + numbers + "\n";
+  };
+  const std::string points = "0 0 0 1 0 0 0 1 0 1 1 0";
+  const auto text = mesh("a.vtk", words("ASCII", points, "4 0 1 2 3") +
+                                      "POLYGONS 1 4\n3 0 1 2\nLINES 2 6\n2 0 1 2 1 2\n"
+                                      "VERTICES 1 2\n1 0\n");
+  EXPECT_THAT(text.triangles, SizeIs(1));
+  EXPECT_EQ(text.passedOver, 3U) << "a point is no element";
+  const auto binary =
+      mesh("a.vtk", words("BINARY", std::string(48, '\0'), std::string("\0\0\0\4POINTS 9 float\n", 19) + '\0'));
+  EXPECT_THAT(binary.positions, SizeIs(4));
+  EXPECT_EQ(binary.passedOver, 1U);
+  const auto xml = mesh("a.vtp",
+                        "<VTKFile><PolyData><Piece NumberOfLines='2' NumberOfStrips='1'><Points><DataArray>0 0 0"
+                        "</DataArray></Points></Piece></PolyData></VTKFile>");
+  EXPECT_EQ(xml.passedOver, 3U);
 }
 
 TEST_F(SofaMeshFile, VtkNamesTheLineOfACellEvenWherePointsComeLater) {

@@ -67,8 +67,12 @@ Mesh readOff(const std::filesystem::path& path) {
     text.skipComments();
     std::vector<Index> corners;
     for (auto left = text.integer(); left > 0; --left) corners.push_back(readIndex(text, mesh.positions.size()));
-    if (corners.size() == 3) mesh.triangles.push_back({corners[0], corners[1], corners[2]});
-    if (corners.size() == 4) mesh.quads.push_back({corners[0], corners[1], corners[2], corners[3]});
+    if (corners.size() == 3)
+      mesh.triangles.push_back({corners[0], corners[1], corners[2]});
+    else if (corners.size() == 4)
+      mesh.quads.push_back({corners[0], corners[1], corners[2], corners[3]});
+    else
+      ++mesh.passedOver;
     text.skipLine();
   }
   return mesh;

@@ -66,6 +66,7 @@ class LegacyVtkReader {
       m_text.fail("only the datasets POLYDATA and UNSTRUCTURED_GRID can be read");
     for (auto word = m_text.word(); !word.empty() && word != "POINT_DATA" && word != "CELL_DATA"; word = m_text.word())
       readSection(word);
+    if (m_needsTypes && m_lists.types.empty()) m_text.fail("the list of the cells' types is missing");
     addCells(m_lists, m_mesh, [this](const char* problem, std::size_t place) { failInCells(problem, place); });
     return std::move(m_mesh);
   }
@@ -80,9 +81,12 @@ class LegacyVtkReader {
 
   void readSection(std::string_view name) {
     if (name == "POINTS") return readPoints();
-    if (name != "POLYGONS" && name != "CELLS" && name != "CELL_TYPES" && name != "LINES" && name != "VERTICES") return;
     const bool kept = name == "POLYGONS" || name == "CELLS" || name == "CELL_TYPES";
+    const bool passedOver = name == "LINES" || name == "TRIANGLE_STRIPS";
+    if (!kept && !passedOver && name != "VERTICES") return;
     auto count = this->count();
+    if (passedOver) m_mesh.passedOver += count;
+    if (name == "CELLS") m_needsTypes = count > 0;
     if (name != "CELL_TYPES") count = this->count();
     m_text.skipLine();
     if (kept && name != "CELL_TYPES") m_cells = m_text.position();
@@ -127,7 +131,8 @@ class LegacyVtkReader {
   bool m_binary = false;
   Mesh m_mesh;
   CellLists m_lists;
-  std::size_t m_cells = 0;  ///< Where in the text the list of cells begins.
+  std::size_t m_cells = 0;    ///< Where in the text the list of cells begins.
+  bool m_needsTypes = false;  ///< Its cells are not those of a surface.
 };
 
 /// The XML format with its arrays in text.
@@ -155,7 +160,12 @@ class XmlVtkReader {
     for (std::size_t i = 0; i + 2 < points.size(); i += 3)
       m_mesh.positions.push_back({points[i], points[i + 1], points[i + 2]});
     auto cells = lists(piece.child(grid ? "Cells" : "Polys"));
-    if (!grid) cells.types = typesOfPolygons(cells);
+    if (grid && !cells.cells.empty() && cells.types.empty()) fail("the list of the cells' types is missing");
+    if (!grid) {
+      cells.types = typesOfPolygons(cells);
+      for (const auto* count : {"NumberOfLines", "NumberOfStrips"})
+        m_mesh.passedOver += piece.attribute(count).as_uint();
+    }
     addCells(cells, m_mesh, [this](const char* problem, std::size_t) { fail(problem); });
     return std::move(m_mesh);
   }
