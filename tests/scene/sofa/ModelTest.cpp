@@ -104,6 +104,12 @@ TEST_F(SofaModel, FlagsAreReadInEverySpelling) {
   EXPECT_TRUE(scene.models[1].useCurvature);
 }
 
+TEST_F(SofaModel, AFlagThatIsNeitherTrueNorFalseIsNamed) {
+  const auto scene = readIn("<MechanicalObject/><PointModel simulated='no'/>");
+  EXPECT_TRUE(scene.models.at(0).simulated);
+  EXPECT_THAT(scene.warnings.back().reason, HasSubstr("simulated: 'no' is neither true nor false"));
+}
+
 TEST_F(SofaModel, InactiveModelsAreMarkedAndNeedNoPlace) {
   const auto scene = readIn("<PointModel active='0'/>");
   ASSERT_EQ(scene.models.size(), 1U);

@@ -55,7 +55,28 @@ TEST_F(SofaState, SingleAttributesOverrideVectors) {
 TEST_F(SofaState, AFloatAttributeThatDoesNotParseAsAWholeKeepsItsDefault) {
   EXPECT_THAT(box("<MechanicalObject position='1 1 1' scale='0.25 0.25 0.25'/>"), IsBox(Corners{1, 1, 1, 1, 1, 1}));
   EXPECT_THAT(box("<MechanicalObject position='1 1 1' dx='2 '/>"), IsBox(Corners{1, 1, 1, 1, 1, 1}));
-  EXPECT_THAT(box("<MechanicalObject position='1 1 1' dx='2m' dy=' 3'/>"), IsBox(Corners{1, 4, 1, 1, 4, 1}));
+  EXPECT_THAT(box("<MechanicalObject position='1 1 1' dy=' 3'/>"), IsBox(Corners{1, 4, 1, 1, 4, 1}));
+}
+
+TEST_F(SofaState, AFloatAttributeThatKeepsItsDefaultIsNamed) {
+  const auto scene = readIn("<MechanicalObject position='1 1 1' dx='2 '/><PointModel/>");
+  EXPECT_THAT(scene.warnings.back().reason, HasSubstr("dx: '2 ' is not one number with nothing behind it"));
+}
+
+TEST_F(SofaState, AFloatAttributeWithAWordThatIsNoNumberIsAnError) {
+  const auto failure = [&](const std::string& components) { return complaintIn(components + "<PointModel/>"); };
+  for (const std::string name : {"dx", "rz", "sy", "scale", "dx2", "ry2", "size"})
+    EXPECT_THAT(failure("<MechanicalObject position='1 1 1' " + name + "='1,5'/>"),
+                HasSubstr(name + ": '1,5' is not a finite number"));
+  EXPECT_THAT(failure("<MechanicalObject rz='90deg'/>"), HasSubstr("rz: '90deg' is not a finite number"));
+  EXPECT_THAT(failure("<MechanicalObject dx='1e50'/>"), HasSubstr("dx: '1e50' is not a finite number"));
+  EXPECT_THAT(failure("<RegularGridTopology n='2 2 2' xmin='0,5' ymin='0' zmin='0' xmax='1' ymax='1' zmax='1'/>"
+                      "<MechanicalObject/>"),
+              HasSubstr("xmin: '0,5' is not a finite number"));
+  write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  EXPECT_THAT(
+      failure("<MeshOBJLoader name='l' filename='a.obj' scale='2,5'/><MechanicalObject position='@l.position'/>"),
+      HasSubstr("scale: '2,5' is not a finite number"));
 }
 
 TEST_F(SofaState, AVectorWithTooFewNumbersKeepsTheDefaultsOfTheRest) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "input/FileBytes.h"
 #include "input/Words.h"
@@ -377,9 +378,31 @@ Vec3 Evaluation::vector(const Component& component, Names names, const Vec3& sta
   return result;
 }
 
+double Evaluation::single(const Component& component, std::string_view name, double standard) {
+  const auto* text = component.attributes.find(name);
+  if (text == nullptr || text->empty()) return standard;
+  if (const auto value = parseWholeFloat(*text)) return *value;
+  std::string bad;
+  const auto given = parseNumbers(*text, bad);
+  constexpr auto kMost = static_cast<double>(std::numeric_limits<float>::max());
+  const auto isTooLarge = [](double value) { return std::abs(value) > kMost; };
+  if (!given || std::ranges::any_of(*given, isTooLarge))
+    throw Unplaceable(component,
+                      std::string{name} + ": " + quotedWord(given ? *text : bad) + " is not a finite number");
+  warn(component, std::string{name} + ": " + quotedWord(*text) +
+                      " is not one number with nothing behind it; it has the default, as in SOFA");
+  return standard;
+}
+
 bool Evaluation::flag(const Component& component, std::string_view name, bool standard) {
   const auto text = component.attributes.value(name);
-  if (!text.starts_with('@')) return parseBool(text).value_or(standard);
+  if (!text.starts_with('@')) {
+    const auto value = parseBool(text);
+    if (!value && !text.empty())
+      warn(component,
+           std::string{name} + ": " + quotedWord(text) + " is neither true nor false; it has the default, as in SOFA");
+    return value.value_or(standard);
+  }
   // A link to what is written elsewhere has its words, such as "true"; what is computed is a number.
   const auto target = followLink(component, text);
   if (target.component == nullptr || !target.component->attributes.has(target.data))

@@ -54,6 +54,10 @@ class Evaluation {
   /// The first number of a data, or the default.
   double number(const Component& component, Names names, double standard);
   Vec3 vector(const Component& component, Names names, const Vec3& standard);
+  /// An attribute that SOFA takes as one number from its first character to its last; else it has the default there.
+  ///
+  /// Bad input: throws Unplaceable for a word that is no number, and warns of what SOFA passes over besides.
+  double single(const Component& component, std::string_view name, double standard);
   bool flag(const Component& component, std::string_view name, bool standard);
   std::vector<Vec3> points(const Component& component, Names names);
   template <std::size_t N>

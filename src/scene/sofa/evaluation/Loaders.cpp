@@ -93,8 +93,7 @@ void transform(Evaluation& evaluation, const Component& loader, Mesh& mesh) {
   const std::vector<double> identity{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};  // counts as none, as in SOFA
   if (matrix && matrix->values.size() == 16 && matrix->values != identity)
     return transformByMatrix(mesh, matrix->values);
-  const auto scale =
-      evaluation.vector(loader, {"scale3d"}, {1, 1, 1}) * parseWholeFloat(loader.attributes.value("scale")).value_or(1);
+  const auto scale = evaluation.vector(loader, {"scale3d"}, {1, 1, 1}) * evaluation.single(loader, "scale", 1);
   const auto rotation = fromEulerDegrees(evaluation.vector(loader, {"rotation"}, {}));
   const auto translation = evaluation.vector(loader, {"translation"}, {});
   for (auto& p : mesh.positions) p = rotate(rotation, scaled(p, scale)) + translation;

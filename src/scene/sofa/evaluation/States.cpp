@@ -21,37 +21,38 @@ struct Placement {
   Vec3 translation2{};
 };
 
-double single(const Component& component, std::string_view name, double standard) {
-  return parseWholeFloat(component.attributes.value(name)).value_or(standard);
-}
-
 /// Three attributes such as rx, ry and rz, any of which overrides the vector.
-Vec3 singles(const Component& component, const std::array<std::string_view, 3>& names, const Vec3& vector,
-             double standard) {
+struct Singles {
+  std::array<std::string_view, 3> names;
+  double standard = 0;
+};
+
+Vec3 overridden(Evaluation& evaluation, const Component& component, const Singles& by, const Vec3& vector) {
+  const auto& names = by.names;
   if (std::ranges::none_of(names, [&](auto name) { return component.attributes.has(name); })) return vector;
-  return {single(component, names[0], standard), single(component, names[1], standard),
-          single(component, names[2], standard)};
+  return {evaluation.single(component, names[0], by.standard), evaluation.single(component, names[1], by.standard),
+          evaluation.single(component, names[2], by.standard)};
 }
 
 Vec3 scaleOf(Evaluation& evaluation, const Component& c) {
   Vec3 scale = evaluation.vector(c, {"scale3d"}, {1, 1, 1});
-  if (c.attributes.has("scale")) scale = Vec3{1, 1, 1} * single(c, "scale", 1);
-  return singles(c, {"sx", "sy", "sz"}, scale, 1);
+  if (c.attributes.has("scale")) scale = Vec3{1, 1, 1} * evaluation.single(c, "scale", 1);
+  return overridden(evaluation, c, {{"sx", "sy", "sz"}, 1}, scale);
 }
 
 /// One of the four data of a state that turn or move it.
 struct Turn {
   std::string_view name;
-  std::array<std::string_view, 3> singles;
+  Singles singles;
 };
 
-constexpr Turn kRotation{"rotation", {"rx", "ry", "rz"}};
-constexpr Turn kTranslation{"translation", {"dx", "dy", "dz"}};
-constexpr Turn kRotation2{"rotation2", {"rx2", "ry2", "rz2"}};
-constexpr Turn kTranslation2{"translation2", {"dx2", "dy2", "dz2"}};
+constexpr Turn kRotation{"rotation", {{"rx", "ry", "rz"}}};
+constexpr Turn kTranslation{"translation", {{"dx", "dy", "dz"}}};
+constexpr Turn kRotation2{"rotation2", {{"rx2", "ry2", "rz2"}}};
+constexpr Turn kTranslation2{"translation2", {{"dx2", "dy2", "dz2"}}};
 
 Vec3 turnOf(Evaluation& evaluation, const Component& c, const Turn& turn) {
-  return singles(c, turn.singles, evaluation.vector(c, {turn.name}, {}), 0);
+  return overridden(evaluation, c, turn.singles, evaluation.vector(c, {turn.name}, {}));
 }
 
 Placement placementOf(Evaluation& evaluation, const Component& c) {
@@ -122,11 +123,12 @@ std::size_t countOf(Evaluation& evaluation, const Component& component, std::str
   return numbers ? numbers->size() : 0;
 }
 
-std::size_t declaredSize(const Component& component, std::size_t standard) {
-  const auto text = component.attributes.value("size");
-  const double size = parseWholeFloat(text).value_or(-1);
+std::size_t declaredSize(Evaluation& evaluation, const Component& component, std::size_t standard) {
+  const double size = evaluation.single(component, "size", -1);
   if (size < 0) return standard;
-  if (size > kMaxPoints) throw Unplaceable(component, "size=\"" + std::string{text} + "\" is out of all reason");
+  if (size > kMaxPoints)
+    throw Unplaceable(component,
+                      "size=\"" + std::string{component.attributes.value("size")} + "\" is out of all reason");
   return static_cast<std::size_t>(size);
 }
 
@@ -227,7 +229,7 @@ void warnOfProjections(Evaluation& evaluation, const Component& state) {
 std::optional<Vec3> placementData(Evaluation& evaluation, const Component& component, std::string_view name) {
   // Only what is asked for: each may hang on a chain of others.
   if (name == "scale3d" && component.kind() == MeshLoader)  // Loaders multiply where states replace.
-    return evaluation.vector(component, {"scale3d"}, {1, 1, 1}) * single(component, "scale", 1);
+    return evaluation.vector(component, {"scale3d"}, {1, 1, 1}) * evaluation.single(component, "scale", 1);
   if (name == "scale3d") return scaleOf(evaluation, component);
   for (const auto& turn : {kRotation, kTranslation, kRotation2, kTranslation2})
     if (name == turn.name) return turnOf(evaluation, component, turn);
@@ -257,7 +259,7 @@ State initialState(Evaluation& evaluation, const Component& component) {
   }
   const auto given = evaluation.numbers(component, {"position"}, width, {0, 0, 0, 0, 0, 0, 1});
   if (given) state.setPositions(*given);
-  if (const auto size = declaredSize(component, state.positions.size());
+  if (const auto size = declaredSize(evaluation, component, state.positions.size());
       !evaluation.isLinked(component, {"position"})) {
     evaluation.takePoints(component, size);
     state.resize(size);

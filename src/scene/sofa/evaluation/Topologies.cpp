@@ -101,16 +101,13 @@ Vec3 gridCounts(Evaluation& evaluation, const Component& grid) {
 
 Box gridCorners(Evaluation& evaluation, const Component& grid) {
   constexpr std::array<std::string_view, 6> kNames{"xmin", "ymin", "zmin", "xmax", "ymax", "zmax"};
-  const auto single = [&](std::string_view name, double standard) {
-    return parseWholeFloat(grid.attributes.value(name)).value_or(standard);
-  };
   if (!std::ranges::all_of(kNames, [&](auto name) { return grid.attributes.has(name); }))
     return {evaluation.vector(grid, {"min"}, {}), evaluation.vector(grid, {"max"}, {1, 1, 1})};
   Box corners;
-  const double scale = single("scale", 1);
+  const double scale = evaluation.single(grid, "scale", 1);
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    corners.min[axis] = single(kNames[axis], 0) * scale;
-    corners.max[axis] = single(kNames[axis + 3], 1) * scale;
+    corners.min[axis] = evaluation.single(grid, kNames[axis], 0) * scale;
+    corners.max[axis] = evaluation.single(grid, kNames[axis + 3], 1) * scale;
   }
   return corners;
 }
