@@ -86,7 +86,57 @@ TEST_F(SofaHostile, HugeNumbersAreNamed) {
 
 TEST_F(SofaHostile, SidesOfACubeWithoutPointsCountAsMuchAsOthers) {
   EXPECT_THAT(complaintIn("<CubeTopology nx='6000' ny='6000' nz='0'/><MechanicalObject/><PointModel/>"),
-              HasSubstr("with 144000000 points it takes more than"));
+              HasSubstr("with 36000000 points it takes more than"));
+}
+
+std::string grid(const std::string& name, const std::string& n) {
+  return "<RegularGridTopology name='" + name + "' n='" + n + "' min='10 10 10' max='11 11 11'/>";
+}
+
+std::string repeatedTriangle(int times) {
+  std::string corners;
+  for (int i = 0; i < times; ++i) corners += "0 1 2 ";
+  return corners;
+}
+
+/// Components that compare all of one list with all of another: points with regions or beams, triangles with cells or
+/// lines.
+std::vector<std::string> comparisons(const std::string& n, const std::string& beams, int triangles) {
+  const std::string points = "<MechanicalObject position='@g.position'/><PointModel/>";
+  const std::string surface = "='0 0 0 1 1 0 0.5 0.5 1' ";
+  const std::string corners = "='" + repeatedTriangle(triangles) + "'/>";
+  return {grid("g", n) +
+              "<BoxROI name='r' box='@g.position' position='@g.position'/>"
+              "<MechanicalObject position='@r.pointsInROI'/><PointModel/>",
+          grid("g", n) +
+              "<SubsetTopology name='r' box='@g.position' rest_position='@g.position'/>"
+              "<MechanicalObject position='@r.pointsInROI'/><PointModel/>",
+          grid("h", beams) + "<MechanicalObject template='Rigid' position='@h.position'/><Node>" + grid("g", n) +
+              "<MechanicalObject position='@g.position'/><BeamLinearMapping localCoord='0'/><PointModel/></Node>",
+          "<SparseGridTopology n='30 30 30' position" + surface + "triangles" + corners +
+              "<MechanicalObject/><PointModel/>"};
+}
+
+TEST_F(SofaHostile, MoreComparisonsThanTheFilesAreWorthAreRefused) {
+  for (const auto& text : comparisons("50 50 50", "200000 1 1", 30'000))
+    EXPECT_THAT(complaintIn(text), HasSubstr("looking for the places of its points takes too long"))
+        << text.substr(0, 200);
+}
+
+TEST_F(SofaHostile, AStopEndsLongComparisons) {
+  auto texts = comparisons("14 14 14", "2 1 1", 200);
+  texts.push_back(
+      "<MeshTetraStuffing name='s' size='-25' inputPoints='0 0 0 1 1 0 0.5 0.5 1' inputTriangles='0 1 2'/>"
+      "<MechanicalObject position='@s.outputPoints'/><PointModel/>");
+  for (const auto& text : texts) {
+    int asked = 0;
+    const auto isTime = [&asked] { return ++asked > 2000; };
+    const StopFlag stop(isTime);
+    ReadOptions options;
+    options.stop = &stop;
+    const auto file = m_folder.write("scene.scn", "<Node>" + text + "</Node>");
+    EXPECT_THROW((void)describeScene(file, options), Stopped) << text.substr(0, 200);
+  }
 }
 
 /// Each would take twice as long as the one before it, and more, if what it gives were not remembered.

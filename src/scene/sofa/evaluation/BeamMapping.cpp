@@ -56,7 +56,11 @@ State mapOnBeams(Evaluation& evaluation, const Component& mapping, const Compone
   const auto bound = isJointed ? articulatedAtStart(evaluation, *joints, initialState(evaluation, beams)) : frames;
   const auto lengths = beamLengths(bound);
   const bool isLocal = evaluation.flag(mapping, "localCoord", true);
-  for (auto& p : child.positions) p = onBeam(frames, lengths, isLocal ? p : alongBeams(mapping, bound, lengths, p));
+  if (!isLocal) takeWork(evaluation, mapping, std::uint64_t{child.positions.size()} * lengths.size());
+  for (auto& p : child.positions) {
+    evaluation.scope().checkStop();
+    p = onBeam(frames, lengths, isLocal ? p : alongBeams(mapping, bound, lengths, p));
+  }
   child.fromTopology.reset();
   return child;
 }

@@ -169,9 +169,9 @@ const Component* Evaluation::topologicalMappingOf(const Component& topology) con
   return found == m_topologicalMappings.end() ? nullptr : found->second;
 }
 
-void Evaluation::takePoints(const Component& component, std::uint64_t count) {
+void Evaluation::takePoints(const Component& component, std::uint64_t count, std::uint64_t each) {
   try {
-    m_scope.takeElements(count, sizeof(Vec3));
+    m_scope.takeElements(count, each * sizeof(Vec3));
   } catch (const FileError& problem) {
     throw Unplaceable(component, "with " + std::to_string(count) + " points it " + problem.problem());
   }

@@ -40,8 +40,9 @@ class Evaluation {
   /// How a data of a component moves the points of a sparse grid that it is made of; nothing if it is made of others.
   std::optional<GridMotion> gridMotion(const Component& component, std::string_view name);
 
-  /// Counts points that a component is about to make, of which a scene may ask for more than it writes out.
-  void takePoints(const Component& component, std::uint64_t count);
+  /// Counts points that a component is about to make, of which a scene may ask for more than it writes out, each with
+  /// so many times the memory of a point alone: for the elements between them.
+  void takePoints(const Component& component, std::uint64_t count, std::uint64_t each = 1);
   [[nodiscard]] ReadScope& scope() { return m_scope; }
   [[nodiscard]] Generation generation() const { return m_generation; }
 

@@ -148,7 +148,7 @@ Mesh gridMesh(Evaluation& evaluation, const Component& creator) {
   const auto nx = static_cast<std::size_t>(counts[0]), ny = static_cast<std::size_t>(counts[1]);
   const auto pattern = static_cast<int>(std::clamp(evaluation.number(creator, {"trianglePattern"}, 2), -1.0, 9.0));
   constexpr std::uint64_t kElements = 8;  // which take this many times the memory of the points
-  evaluation.takePoints(creator, kElements * nx * ny);
+  evaluation.takePoints(creator, std::uint64_t{nx} * ny, kElements);
   Mesh mesh;
   for (std::size_t y = 0; y < ny; ++y)
     for (std::size_t x = 0; x < nx; ++x)
@@ -206,8 +206,8 @@ Mesh stuffedMesh(Evaluation& evaluation, const Component& engine) {
   constexpr double kMostPoints = 1e8;
   if (!(points >= 0 && points <= kMostPoints)) throw Unplaceable(engine, "its size is out of all reason");
   constexpr std::uint64_t kElements = 40;  // cuts and tetrahedra take this many times the memory of the points
-  evaluation.takePoints(engine, kElements * static_cast<std::uint64_t>(points));
-  return stuffed(surface, how);
+  evaluation.takePoints(engine, static_cast<std::uint64_t>(points), kElements);
+  return stuffed(surface, how, [&](std::uint64_t pairs) { takeWork(evaluation, engine, pairs); });
 }
 
 void warnOfPassedOver(Evaluation& evaluation, const Component& component, const Mesh& mesh) {

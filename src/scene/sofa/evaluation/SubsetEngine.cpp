@@ -62,8 +62,8 @@ Mesh inputOf(Evaluation& evaluation, const Component& engine) {
 /// numbers.
 class Parting {
  public:
-  Parting(const Mesh& mesh, const Regions& regions, bool renumber)
-      : m_mesh(mesh), m_regions(regions), m_renumber(renumber) {
+  Parting(const Mesh& mesh, const Regions& regions, bool renumber, const ReadScope& scope)
+      : m_mesh(mesh), m_regions(regions), m_renumber(renumber), m_scope(scope) {
     if (renumber) m_mesh.tetrahedra.empty() ? addBorder(m_mesh.triangles) : addBorder(m_mesh.tetrahedra);
     partPoints();
     part(m_mesh.edges, &Mesh::edges);
@@ -104,6 +104,7 @@ class Parting {
       if (isBorder(i)) add(i, in), out.positions.push_back(m_mesh.positions[i]), indices.push_back(i);
     for (Index i = 0; i < count; ++i) {
       if (isBorder(i)) continue;
+      m_scope.checkStop();
       const bool inside =
           std::ranges::any_of(m_regions, [&](const auto& region) { return region(m_mesh.positions[i]); });
       add(i, inside ? in : out);
@@ -115,6 +116,7 @@ class Parting {
   void part(const Elements<N>& elements, Elements<N> Mesh::*list) {
     for (auto corners : elements) {
       bool inside = false;
+      m_scope.checkStop();
       for (std::size_t r = 0; r < m_regions.size() && !inside; ++r)
         inside = std::ranges::all_of(corners, [&](Index c) { return isIn(c, r); });
       if (m_renumber)
@@ -126,6 +128,7 @@ class Parting {
   const Mesh& m_mesh;
   const Regions& m_regions;
   bool m_renumber;
+  const ReadScope& m_scope;
   std::vector<bool> m_isBorder;
   std::vector<Index> m_numbers;
 };
@@ -162,14 +165,17 @@ class Roi {
         m_engine(engine),
         m_regions(boxesOf(evaluation, engine)),
         m_candidates(candidatesOf(evaluation, engine, width)),
-        m_strict(evaluation.flag(engine, "strict", true)) {}
+        m_strict(evaluation.flag(engine, "strict", true)) {
+    takeWork(evaluation, engine, std::uint64_t{m_candidates.size()} * m_regions.size());
+    for (std::size_t i = 0; i < m_candidates.size(); ++i) m_isIn.push_back(has(position(i)));
+  }
 
   [[nodiscard]] Numbers points(bool inside) const {
     Numbers result{.values = {}, .width = m_candidates.width};
     const auto width = static_cast<std::ptrdiff_t>(m_candidates.width);
     for (std::size_t i = 0; i < m_candidates.size(); ++i) {
       const auto at = m_candidates.values.begin() + static_cast<std::ptrdiff_t>(i) * width;
-      if (has(position(i)) == inside) result.values.insert(result.values.end(), at, at + width);
+      if (m_isIn[i] == inside) result.values.insert(result.values.end(), at, at + width);
     }
     return result;
   }
@@ -177,7 +183,7 @@ class Roi {
   [[nodiscard]] Numbers indices(bool inside) const {
     Numbers result;
     for (std::size_t i = 0; i < m_candidates.size(); ++i)
-      if (has(position(i)) == inside) result.values.push_back(static_cast<double>(i));
+      if (m_isIn[i] == inside) result.values.push_back(static_cast<double>(i));
     return result;
   }
 
@@ -187,6 +193,7 @@ class Roi {
     if (!m_evaluation.flag(m_engine, flag, true)) return toNumbers(Elements<N>{});
     const auto all = choiceOf(m_evaluation, m_engine, list, member);
     if (!all) return std::nullopt;
+    if (!m_strict) takeWork(m_evaluation, m_engine, std::uint64_t{all->size()} * m_regions.size());
     Elements<N> result;
     for (const auto& element : *all)
       if (hasElement(element) == inside) result.push_back(element);
@@ -194,21 +201,26 @@ class Roi {
   }
 
  private:
-  [[nodiscard]] Vec3 position(std::size_t point) const {
+  [[nodiscard]] std::size_t checked(std::size_t point) const {
     if (point >= m_candidates.size()) throw Unplaceable(m_engine, "its elements name points that are not there");
+    return point;
+  }
+
+  [[nodiscard]] Vec3 position(std::size_t point) const {
     const auto* v = m_candidates.values.data() + point * m_candidates.width;
     return {v[0], v[1], v[2]};
   }
 
   [[nodiscard]] bool has(const Vec3& p) const {
+    m_evaluation.scope().checkStop();
     return std::ranges::any_of(m_regions, [&](const auto& region) { return region(p); });
   }
 
   template <std::size_t N>
   [[nodiscard]] bool hasElement(const std::array<Index, N>& corners) const {
-    if (m_strict) return std::ranges::all_of(corners, [&](Index c) { return has(position(c)); });
+    if (m_strict) return std::ranges::all_of(corners, [&](Index c) { return m_isIn[checked(c)]; });
     Vec3 sum{};
-    for (const auto corner : corners) sum = sum + position(corner);
+    for (const auto corner : corners) sum = sum + position(checked(corner));
     return has({sum[0] / static_cast<double>(N), sum[1] / static_cast<double>(N), sum[2] / static_cast<double>(N)});
   }
 
@@ -216,6 +228,7 @@ class Roi {
   const Component& m_engine;
   Regions m_regions;
   Numbers m_candidates;
+  std::vector<bool> m_isIn;  ///< For each candidate.
   bool m_strict;
 };
 
@@ -255,8 +268,11 @@ std::optional<Numbers> subsetOutput(Evaluation& evaluation, const Component& eng
   const bool renumber = evaluation.flag(engine, "localIndices", false);
   if (renumber && regions.empty()) return std::nullopt;
   const auto mesh = inputOf(evaluation, engine);
-  evaluation.takePoints(engine, 2 * mesh.positions.size());
-  const Parting parting(mesh, regions, renumber);
+  evaluation.takePoints(engine, mesh.positions.size(), 2);
+  const std::uint64_t corners = 2 * mesh.edges.size() + 3 * mesh.triangles.size() +
+                                4 * (mesh.quads.size() + mesh.tetrahedra.size()) + 8 * mesh.hexahedra.size();
+  takeWork(evaluation, engine, (mesh.positions.size() + corners) * regions.size());
+  const Parting parting(mesh, regions, renumber, evaluation.scope());
   if (name == "indices") return Numbers{{parting.indices.begin(), parting.indices.end()}, 1};
   name.remove_suffix(isOut ? std::string_view{"OutROI"}.size() : std::string_view{"InROI"}.size());
   return listOf(isOut ? parting.out : parting.in, name);

@@ -174,7 +174,7 @@ Topology regularGrid(Evaluation& evaluation, const Component& component) {
   auto shape = grid.shape;
   shape.points = toCounts(component, grid.counts);
   constexpr std::uint64_t kElements = 8;  // elements of a grid take this many times the memory of its points
-  evaluation.takePoints(component, kElements * shape.points[0] * shape.points[1] * shape.points[2]);
+  evaluation.takePoints(component, std::uint64_t{shape.points[0]} * shape.points[1] * shape.points[2], kElements);
 
   forAllPlaces(shape.points, [&](const GridPlace& p) { topology.given.positions.push_back(shape.point(p)); });
   fillGrid(topology, shape.points, gridLists(evaluation, component));
@@ -196,9 +196,9 @@ Topology cubeTopology(Evaluation& evaluation, const Component& component) {
   for (std::size_t axis = 0; axis < 3; ++axis)
     grid.spacing[axis] = counts[axis] > 1 ? (corners.max[axis] - corners.min[axis]) / (counts[axis] - 1) : 0.0;
   constexpr std::uint64_t kElements = 4;  // elements take this many times the memory of the points
-  std::uint64_t count = kElements;
+  std::uint64_t count = 1;
   for (const auto points : grid.points) count *= std::max<std::size_t>(points, 1);  // SOFA lists sides of no points.
-  evaluation.takePoints(component, count);
+  evaluation.takePoints(component, count, kElements);
   Topology topology;
   topology.given = cubeSurface(grid, hasInner);
   topology.pointCount = topology.given.positions.size();
@@ -260,8 +260,8 @@ std::optional<Mesh> sparseMesh(Evaluation& evaluation, const Component& componen
   if (!std::ranges::all_of(shape.spacing, [](double step) { return step > 0; })) return std::nullopt;
   if (!shape.isVolume()) return std::nullopt;
   constexpr std::uint64_t kElements = 8;  // cells take this many times the memory of the points
-  evaluation.takePoints(component, kElements * shape.points[0] * shape.points[1] * shape.points[2]);
-  return sparseGrid(shape, *surface);
+  evaluation.takePoints(component, std::uint64_t{shape.points[0]} * shape.points[1] * shape.points[2], kElements);
+  return sparseGrid(shape, *surface, [&](std::uint64_t pairs) { takeWork(evaluation, component, pairs); });
 }
 
 Topology sparseGridTopology(Evaluation& evaluation, const Component& component) {

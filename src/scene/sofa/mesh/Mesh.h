@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "allpairs/FunctionRef.h"
 #include "sofa/mesh/Math.h"
 
 namespace allpairs::scene::sofa {
@@ -16,6 +17,9 @@ namespace allpairs::scene::sofa {
 using Index = std::uint32_t;
 template <std::size_t N>
 using Elements = std::vector<std::array<Index, N>>;
+
+/// Counts pairs of what is about to be compared, and throws where they are too many or reading is to stop.
+using TakeWork = FunctionRef<void(std::uint64_t)>;
 
 /// More points than this no list of elements can number.
 inline constexpr double kMaxPoints = 4e9;

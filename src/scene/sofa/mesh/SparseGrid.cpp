@@ -34,7 +34,7 @@ bool meetsUnitCube(const Corners& triangle) {
 
 class Voxels {
  public:
-  explicit Voxels(const GridShape& grid) : m_grid(grid) {
+  Voxels(const GridShape& grid, TakeWork takeWork) : m_grid(grid), m_takeWork(takeWork) {
     for (std::size_t axis = 0; axis < 3; ++axis) m_cells[axis] = grid.points[axis] - 1;
     m_filling.assign(m_cells[0] * m_cells[1] * m_cells[2], Filling::Inside);
   }
@@ -48,12 +48,16 @@ class Voxels {
       filling(*cell) = Filling::Boundary;
       cells.push_back(*cell);
     }
-    const auto addTriangle = [&](Index a, Index b, Index c) {
-      const auto& p = surface.positions;
-      mark({p[a], p[b], p[c]}, {cells[a], cells[b], cells[c]});
+    auto triangles = surface.triangles;
+    addHalves(surface.quads, triangles);
+    const auto rangeOf = [&](const std::array<Index, 3>& t) {
+      return between({cells[t[0]], cells[t[1]], cells[t[2]]});
     };
-    for (const auto& t : surface.triangles) addTriangle(t[0], t[1], t[2]);
-    for (const auto& q : surface.quads) addTriangle(q[0], q[1], q[2]), addTriangle(q[0], q[2], q[3]);
+    std::uint64_t tests = 0;
+    for (const auto& t : triangles) tests += rangeOf(t).count();
+    m_takeWork(kPairsPerTest * tests);
+    const auto& p = surface.positions;
+    for (const auto& t : triangles) mark({p[t[0]], p[t[1]], p[t[2]]}, rangeOf(t));
     return true;
   }
 
@@ -125,17 +129,33 @@ class Voxels {
     return meetsUnitCube(scaled);
   }
 
-  void mark(const Corners& triangle, const std::array<GridPlace, 3>& cells) {
-    GridPlace low{}, high{};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      low[axis] = std::min({cells[0][axis], cells[1][axis], cells[2][axis]});
-      high[axis] = std::max({cells[0][axis], cells[1][axis], cells[2][axis]});
+  /// All cells from one to another, both included.
+  struct Range {
+    GridPlace low, high;
+
+    [[nodiscard]] std::uint64_t count() const {
+      return std::uint64_t{high[0] - low[0] + 1} * (high[1] - low[1] + 1) * (high[2] - low[2] + 1);
     }
-    for (auto x = low[0]; x <= high[0]; ++x)
+  };
+
+  static Range between(const std::array<GridPlace, 3>& cells) {
+    Range range{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      range.low[axis] = std::min({cells[0][axis], cells[1][axis], cells[2][axis]});
+      range.high[axis] = std::max({cells[0][axis], cells[1][axis], cells[2][axis]});
+    }
+    return range;
+  }
+
+  void mark(const Corners& triangle, const Range& range) {
+    const auto& [low, high] = range;
+    for (auto x = low[0]; x <= high[0]; ++x) {
+      m_takeWork(0);  // was taken; asks for a stop
       for (auto y = low[1]; y <= high[1]; ++y)
         for (auto z = low[2]; z <= high[2]; ++z)
           if (filling({x, y, z}) != Filling::Boundary && meets(triangle, {x, y, z}))
             filling({x, y, z}) = Filling::Boundary;
+    }
   }
 
   /// The number of each corner of a kept cell by its place in the grid; also adds the corners to a mesh.
@@ -157,15 +177,18 @@ class Voxels {
     return numbers;
   }
 
+  static constexpr std::uint64_t kPairsPerTest = 16;  ///< It takes as long as comparing so many pairs of points.
+
   const GridShape& m_grid;
+  TakeWork m_takeWork;
   GridPlace m_cells{};
   std::vector<Filling> m_filling;
 };
 
 }  // namespace
 
-std::optional<Mesh> sparseGrid(const GridShape& grid, const Mesh& surface) {
-  Voxels voxels(grid);
+std::optional<Mesh> sparseGrid(const GridShape& grid, const Mesh& surface, TakeWork takeWork) {
+  Voxels voxels(grid, takeWork);
   if (!voxels.add(surface)) return std::nullopt;
   voxels.clearOutside();
   return voxels.mesh();

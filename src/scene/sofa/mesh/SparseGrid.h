@@ -13,6 +13,6 @@ namespace allpairs::scene::sofa {
 /// Geometry: a cell counts if a triangle, in float32, meets the closed cell and lies between the cells of its corners.
 ///           Corners come in ascending order of x, then y, then z.
 /// Bad input: nothing if a point of the surface is in no cell.
-[[nodiscard]] std::optional<Mesh> sparseGrid(const GridShape& grid, const Mesh& surface);
+[[nodiscard]] std::optional<Mesh> sparseGrid(const GridShape& grid, const Mesh& surface, TakeWork takeWork);
 
 }  // namespace allpairs::scene::sofa

@@ -106,14 +106,14 @@ class Lattice {
 
 class Stuffer {
  public:
-  Stuffer(const Mesh& surface, const Lattice& lattice, const Stuffing& how)
+  Stuffer(const Mesh& surface, const Lattice& lattice, const Stuffing& how, TakeWork takeWork)
       : m_lattice(lattice),
         m_how(how),
         m_points(lattice.points()),
         m_count(static_cast<int>(m_points.size())),
         m_inside(m_points.size(), 0),
         m_cuts(m_points.size()) {
-    for (int edge = 0; edge < kEdges; edge += 2) castAlong(surface, edge);
+    for (int edge = 0; edge < kEdges; edge += 2) castAlong(surface, edge, takeWork);
     for (auto& inside : m_inside)
       if (inside == 0) inside = -1;
   }
@@ -138,14 +138,17 @@ class Stuffer {
   /// Whether the surface cuts an edge nearer to its point than may be.
   [[nodiscard]] bool isNear(int p, int edge, double limit) { return cut(p, edge) != 0 && cut(p, edge) < limit; }
 
-  void castAlong(const Mesh& surface, int edge) {
-    std::optional<LineCaster> caster;
-    for (int p = 0; p < m_count; ++p) {
-      const int next = m_lattice.neighbour(p, edge);
-      if (next == kNone || m_lattice.neighbour(p, edge + 1) != kNone) continue;
-      const Vec3 direction = point(next) - point(p);
-      if (!caster) caster.emplace(surface, direction);
-      noteCrossings(p, edge, caster->crossings(point(p), direction));
+  void castAlong(const Mesh& surface, int edge, TakeWork takeWork) {
+    std::vector<int> starts;
+    for (int p = 0; p < m_count; ++p)
+      if (m_lattice.neighbour(p, edge) != kNone && m_lattice.neighbour(p, edge + 1) == kNone) starts.push_back(p);
+    if (starts.empty()) return;
+    takeWork(std::uint64_t{starts.size()} * surface.triangles.size());
+    const auto directionOf = [&](int p) { return point(m_lattice.neighbour(p, edge)) - point(p); };
+    const LineCaster caster(surface, directionOf(starts.front()));
+    for (const int p : starts) {
+      takeWork(0);  // was taken; asks for a stop
+      noteCrossings(p, edge, caster.crossings(point(p), directionOf(p)));
     }
   }
 
@@ -421,10 +424,10 @@ double stuffingPoints(const Mesh& surface, const Stuffing& how) {
   return Lattice::pointsIn(in.box, in.size);
 }
 
-Mesh stuffed(const Mesh& surface, const Stuffing& how) {
+Mesh stuffed(const Mesh& surface, const Stuffing& how, TakeWork takeWork) {
   const Stuffing in = measured(surface, how);
   const Lattice lattice(in.box, in.size);
-  return Stuffer(surface, lattice, in).make();
+  return Stuffer(surface, lattice, in, takeWork).make();
 }
 
 }  // namespace allpairs::scene::sofa

@@ -23,6 +23,6 @@ struct Stuffing {
 /// The tetrahedra inside of a surface of triangles, as SOFA makes them.
 ///
 /// Reference: Labelle and Shewchuk, "Isosurface Stuffing: Fast Tetrahedral Meshes with Good Dihedral Angles", 2007.
-[[nodiscard]] Mesh stuffed(const Mesh& surface, const Stuffing& how);
+[[nodiscard]] Mesh stuffed(const Mesh& surface, const Stuffing& how, TakeWork takeWork);
 
 }  // namespace allpairs::scene::sofa
