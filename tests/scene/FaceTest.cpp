@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "Expect.h"
+#include "allpairs/StopFlag.h"
 #include "allpairs/collision/TriangleModel.h"
 #include "allpairs/scene/ReadInput.h"
 #include "support/TempFolder.h"
@@ -219,6 +220,42 @@ TEST(Faces, OfThousandsOfCornersAreFilledOrRefused) {
     const auto path = folder.write(format.file, format.write(spiral(15000), 0));
     expectFileError([&] { (void)scene::readInput(path); }, "a face of 30000 corners that is too intricate");
   }
+}
+
+TEST(Faces, ThatAreHardToCutAreBoundedTogether) {
+  const std::string vertices = positionsOf(spiral(600), 0, "v");
+  const std::string face = "f" + indices(1200, 1);
+  const TempFolder folder;
+  scene::ReadOptions options;
+  options.maxMemory = std::uint64_t{4} << 20;
+  std::string faces;
+  for (int i = 0; i < 30; ++i) faces += face;
+  EXPECT_EQ(scene::readInput(folder.write("a.obj", vertices + face), options).models.size(), 1U);
+  for (const std::string& text : {vertices + faces, faces + vertices}) {
+    expectFileError([&, path = folder.write("a.obj", text)] { (void)scene::readInput(path, options); },
+                    "a face of 1200 corners that is too intricate");
+  }
+}
+
+TEST(Faces, AStopEndsTheCutting) {
+  const std::string face = "f" + indices(4, 1);
+  const auto asksOf = [&](std::size_t faces) {
+    const TempFolder folder;
+    std::string text;
+    for (std::size_t i = 0; i < faces; ++i) text += face;
+    std::size_t asked = 0;
+    const auto ask = [&asked] { return ++asked == 0; };
+    const StopFlag stop(ask);
+    scene::ReadOptions options;
+    options.stop = &stop;
+    (void)scene::readInput(folder.write("a.obj", text + positionsOf({{0, 0}, {4, 0}, {1, 1}, {0, 4}}, 0, "v")),
+                           options);
+    return asked;
+  };
+  EXPECT_GE(asksOf(200) - asksOf(100), 200U) << "once where a face is read, once where it is cut";
+}
+
+TEST(Faces, OfThousandsOfCornersThatAreConvexAreRead) {
   Outline round;
   for (int i = 0; i < 20000; ++i) round.push_back({1e5 * std::cos(i * 0.000314), 1e5 * std::sin(i * 0.000314)});
   EXPECT_EQ(trianglesOf("round.obj", formats()[0].write(round, 0)).size(), 19998U);

@@ -232,7 +232,7 @@ class NodeReader {
     };
     m_corners.clear();
     for (unsigned i = 0; i < face.mNumIndices; ++i) m_corners.push_back(corner(i));
-    if (!addCutFace(object, m_corners)) fail(object, "has " + tooIntricate(m_corners.size()));
+    if (!addCutFace(object, m_corners, m_scope)) fail(object, "has " + tooIntricate(m_corners.size()));
   }
 
   [[noreturn]] void fail(const MeshObject& object, const std::string& problem) const {

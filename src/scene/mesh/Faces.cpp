@@ -115,6 +115,9 @@ class EarCutter {
     return true;
   }
 
+  /// How many tests of a point and a triangle it took.
+  [[nodiscard]] std::uint64_t tests() const { return m_tests; }
+
  private:
   static constexpr std::uint64_t kMostTests = std::uint64_t{1} << 27;  // of a point and a triangle, half a second
 
@@ -180,21 +183,24 @@ void addFace(MeshObject& object, std::span<const std::uint32_t> corners) {
   }
 }
 
-bool cutFan(std::span<const Point> positions, std::span<Triangle> fan) {
+bool cutFan(std::span<const Point> positions, std::span<Triangle> fan, ReadScope& scope) {
+  scope.checkStop();
   if (fan.size() < 2) return true;
   const Sight sight = sightOf(positions, fan);
   if (isWithinFace(positions, fan, sight)) return true;
   const std::vector<std::uint32_t> corners = cornersOf(fan);
   auto target = fan.begin();
-  return EarCutter(flattened(positions, corners, sight)).cut([&](std::size_t a, std::size_t b, std::size_t c) {
+  EarCutter cutter(flattened(positions, corners, sight));
+  const bool isCut = cutter.cut([&](std::size_t a, std::size_t b, std::size_t c) {
     *target++ = {corners[a], corners[b], corners[c]};
   });
+  return scope.takeWork(cutter.tests()) && isCut;
 }
 
-bool addCutFace(MeshObject& object, std::span<const std::uint32_t> corners) {
+bool addCutFace(MeshObject& object, std::span<const std::uint32_t> corners, ReadScope& scope) {
   addFace(object, corners);
   if (corners.size() < 3) return true;
-  return cutFan(object.positions, std::span(object.triangles).last(corners.size() - 2));
+  return cutFan(object.positions, std::span(object.triangles).last(corners.size() - 2), scope);
 }
 
 std::string tooIntricate(std::size_t corners) {

@@ -73,7 +73,8 @@ class ObjReader final : ObjParser {
   };
 
   void cut(const Fan& fan) {
-    if (!cutFan(m_positions, std::span(m_objects[fan.object].triangles).subspan(fan.first, fan.count))) {
+    const auto triangles = std::span(m_objects[fan.object].triangles).subspan(fan.first, fan.count);
+    if (!cutFan(m_positions, triangles, m_scope)) {
       failAt(fan.line, tooIntricate(fan.count + 2));
     }
   }

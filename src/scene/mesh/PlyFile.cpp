@@ -116,7 +116,8 @@ class PlyReader {
                   std::to_string(static_cast<std::uint64_t>(m_highest.index)) + " of " + std::to_string(vertices));
     }
     for (const Fan& fan : m_fans) {
-      if (cutFan(m_object.positions, std::span(m_object.triangles).subspan(fan.first, fan.count))) continue;
+      const auto triangles = std::span(m_object.triangles).subspan(fan.first, fan.count);
+      if (cutFan(m_object.positions, triangles, m_scope)) continue;
       m_body.fail(fan.place.text() + " is " + tooIntricate(fan.count + 2));
     }
     if (!m_object.hasElements()) m_object.addAllPoints();
