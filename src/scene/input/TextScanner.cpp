@@ -10,11 +10,14 @@
 
 namespace allpairs::scene {
 
-TextScanner::TextScanner(const std::filesystem::path& path) : TextScanner(path, readText(path)) {}
+TextScanner::TextScanner(const std::filesystem::path& path, const StopFlag* stop)
+    : TextScanner(path, readText(path, stop), stop) {}
 
-TextScanner::TextScanner(const std::filesystem::path& path, std::string text) : m_path(path), m_text(std::move(text)) {}
+TextScanner::TextScanner(const std::filesystem::path& path, std::string text, const StopFlag* stop)
+    : m_path(path), m_text(std::move(text)), m_stop(stop) {}
 
 std::string_view TextScanner::word() {
+  checkStop(m_stop);
   auto text = rest();
   const auto word = takeWord(text, isBlankOrLineEnd);
   m_position = m_text.size() - text.size();
@@ -69,6 +72,7 @@ void TextScanner::skipComments() {
 }
 
 std::string_view TextScanner::bytes(std::size_t count) {
+  checkStop(m_stop);
   if (m_text.size() - m_position < count) fail("the file ends before its data");
   m_wordStart = m_position;
   m_position += count;

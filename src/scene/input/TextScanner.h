@@ -8,16 +8,18 @@
 #include <string>
 #include <string_view>
 
+#include "allpairs/StopFlag.h"
+
 namespace allpairs::scene {
 
 /// Reads a text word by word and says at which line it went wrong. What stands there it does not repeat: a scene may
 /// name any file for a mesh, and its messages must not show what is in it.
 class TextScanner {
  public:
-  /// Reads the whole file; throws FileError.
-  explicit TextScanner(const std::filesystem::path& path);
+  /// Reads the whole file; throws FileError. This and all below throws Stopped soon after a flag that is given is set.
+  explicit TextScanner(const std::filesystem::path& path, const StopFlag* stop);
   /// The same of a text that was read.
-  TextScanner(const std::filesystem::path& path, std::string text);
+  TextScanner(const std::filesystem::path& path, std::string text, const StopFlag* stop);
 
   /// The next word, or an empty one at the end of the file.
   std::string_view word();
@@ -46,6 +48,7 @@ class TextScanner {
 
   std::filesystem::path m_path;
   std::string m_text;
+  const StopFlag* m_stop;
   std::size_t m_position = 0;
   std::size_t m_wordStart = 0;
 };

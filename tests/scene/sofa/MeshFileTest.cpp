@@ -19,7 +19,7 @@ using Four = std::array<Index, 4>;
 class SofaMeshFile : public SceneTest {
  protected:
   [[nodiscard]] Mesh mesh(const std::string& name, const std::string& text) const {
-    auto result = readMesh(m_folder.write(name, text));
+    auto result = readMesh(m_folder.write(name, text), nullptr);
     checkMesh(result, name);
     return result;
   }
@@ -50,14 +50,15 @@ TEST_F(SofaMeshFile, ObjFansLargerFaces) {
 
 TEST_F(SofaMeshFile, ObjCutsQuadsOnRequest) {
   const auto file = m_folder.write("a.obj", std::string{kObj} + "f 1 2 3 4\n");
-  EXPECT_THAT(readObj(file, {.triangulate = true}).triangles, ElementsAre(Triangle{0, 1, 2}, Triangle{0, 2, 3}));
+  EXPECT_THAT(readObj(file, {.triangulate = true}, nullptr).triangles,
+              ElementsAre(Triangle{0, 1, 2}, Triangle{0, 2, 3}));
 }
 
 TEST_F(SofaMeshFile, ObjSplitsSeamsOnRequestAndDropsWhatNoFaceUses) {
   const auto file = m_folder.write(
       "a.obj",
       "v 0 0 0\nv 1 0 0\nv 9 9 9\nv 0 1 0\nvt 0 0\nvt 1 1\nvn 0 0 1\nf 1/1/1 2/1/1 4/1/1\nf 1/2/1 2/1/1 4/1/1\n");
-  const auto m = readObj(file, {.triangulate = false, .splitSeams = true});
+  const auto m = readObj(file, {.triangulate = false, .splitSeams = true}, nullptr);
   EXPECT_THAT(m.positions, ElementsAre(Vec3{0, 0, 0}, Vec3{0, 0, 0}, Vec3{1, 0, 0}, Vec3{0, 1, 0}));
   EXPECT_THAT(m.triangles, ElementsAre(Triangle{0, 2, 3}, Triangle{1, 2, 3}));
 }

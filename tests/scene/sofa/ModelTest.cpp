@@ -104,6 +104,12 @@ TEST_F(SofaModel, FlagsAreReadInEverySpelling) {
   EXPECT_TRUE(scene.models[1].useCurvature);
 }
 
+TEST_F(SofaModel, AGroupThatIsComputedAndNoNumberIsAnError) {
+  EXPECT_THAT(complaintIn("<TransformEngine name='t' input_position='1e300 1e300 1e300' scale='1e300 1e300 1e300' "
+                          "rotation='0 0 45'/><MechanicalObject/><PointModel group='@t.output_position'/>"),
+              HasSubstr("a group beyond all integers"));
+}
+
 TEST_F(SofaModel, AFlagThatIsNeitherTrueNorFalseIsNamed) {
   const auto scene = readIn("<MechanicalObject/><PointModel simulated='no'/>");
   EXPECT_TRUE(scene.models.at(0).simulated);

@@ -129,7 +129,7 @@ void placeRoot(Evaluation& evaluation, const Component& mapping, State& bodies) 
   if (carrier.kind != State::Kind::Rigid || carrier.positions.empty() || bodies.positions.empty())
     throw Unplaceable(mapping, "its input2 has no rigid frame");
   const auto last = static_cast<double>(carrier.positions.size() - 1);
-  const auto index = std::clamp(evaluation.number(mapping, {"indexInput2"}, last), 0.0, last);
+  const auto index = clamped(evaluation.number(mapping, {"indexInput2"}, last), 0, last);
   bodies.positions[0] = carrier.positions[static_cast<std::size_t>(index)];
   bodies.orientations[0] = carrier.orientations[static_cast<std::size_t>(index)];
 }

@@ -243,7 +243,7 @@ std::vector<Vec3> throughGrid(const GridShape& grid, const std::vector<Vec3>& in
       const double local = grid.spacing[axis] != 0 ? (point[axis] - grid.origin[axis]) / grid.spacing[axis] : 0;
       const double last = static_cast<double>(grid.points[axis]) - 2;
       // Where coordinates overflow this is NaN: any cell will do, since the sum is not finite and is refused.
-      cell[axis] = std::isnan(local) ? 0 : static_cast<std::size_t>(std::clamp(std::floor(local), 0.0, last));
+      cell[axis] = static_cast<std::size_t>(clamped(std::floor(local), 0, last));
       at[axis] = local - static_cast<double>(cell[axis]);
     }
     Vec3 sum{};

@@ -35,7 +35,7 @@ Vec3 inFrame(const State& frames, std::size_t frame, const Vec3& p, double lengt
 /// Between the two frames of a beam, by a cubic that leaves each along its own axis.
 Vec3 onBeam(const State& frames, const std::vector<double>& lengths, Vec3 p) {
   const auto last = static_cast<double>(frames.positions.size() - 2);
-  const double beam = std::clamp(std::floor(p[0]), 0.0, last);
+  const double beam = clamped(std::floor(p[0]), 0, last);
   const auto index = static_cast<std::size_t>(beam);
   p[0] -= beam;
   const double weight = 3 * p[0] * p[0] - 2 * p[0] * p[0] * p[0];

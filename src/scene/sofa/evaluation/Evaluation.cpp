@@ -246,8 +246,8 @@ std::optional<Numbers> Evaluation::written(const Component& component, std::stri
 }
 
 void Evaluation::warn(const Component& component, std::string text) {
-  const std::pair<const Component*, std::string> warning{&component, std::move(text)};
-  if (std::ranges::find(m_warnings, warning) == m_warnings.end()) m_warnings.push_back(warning);
+  if (const auto [warning, isNew] = m_warned.emplace(&component, std::move(text)); isNew)
+    m_warnings.push_back(*warning);
 }
 
 bool Evaluation::isMadeFor(const Component& component, const Component& needed, std::string_view without) {

@@ -5,6 +5,7 @@
 #include <initializer_list>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -117,6 +118,7 @@ class Evaluation {
   std::unordered_map<const Component*, const Component*> m_topologicalMappings;
   std::vector<std::pair<const Component*, std::string>> m_busy;
   Warnings m_warnings;
+  std::set<Warnings::value_type> m_warned;
 };
 
 [[nodiscard]] Numbers toNumbers(const std::vector<Vec3>& points);

@@ -14,15 +14,17 @@ namespace {
 template <std::size_t N>
 class Completion {
  public:
-  explicit Completion(Elements<N>& list) : m_list(list) {
+  Completion(Elements<N>& list, const ReadScope& scope) : m_list(list), m_scope(scope) {
     for (const auto& element : list) m_seen.insert(sorted(element));
   }
   void add(const std::array<Index, N>& element) {
+    m_scope.checkStop();
     if (m_seen.insert(sorted(element)).second) m_list.push_back(element);
   }
 
  private:
   Elements<N>& m_list;
+  const ReadScope& m_scope;
   std::set<std::array<Index, N>> m_seen;
 };
 
@@ -31,8 +33,8 @@ void triangulate(Mesh& mesh) {
   mesh.quads.clear();
 }
 
-void addFaces(Mesh& mesh) {
-  Completion<4> quads(mesh.quads);
+void addFaces(Mesh& mesh, const ReadScope& scope) {
+  Completion<4> quads(mesh.quads, scope);
   for (const auto& h : mesh.hexahedra) {
     quads.add({h[0], h[3], h[2], h[1]});
     quads.add({h[4], h[5], h[6], h[7]});
@@ -41,7 +43,7 @@ void addFaces(Mesh& mesh) {
     quads.add({h[2], h[3], h[7], h[6]});
     quads.add({h[3], h[0], h[4], h[7]});
   }
-  Completion<3> triangles(mesh.triangles);
+  Completion<3> triangles(mesh.triangles, scope);
   for (const auto& t : mesh.tetrahedra) {
     triangles.add({t[0], t[2], t[1]});
     triangles.add({t[0], t[1], t[3]});
@@ -50,8 +52,8 @@ void addFaces(Mesh& mesh) {
   }
 }
 
-void addEdges(Mesh& mesh) {
-  Completion<2> edges(mesh.edges);
+void addEdges(Mesh& mesh, const ReadScope& scope) {
+  Completion<2> edges(mesh.edges, scope);
   for (const auto& q : mesh.quads)
     for (std::size_t j = 0; j < 4; ++j) edges.add({q[(j + 1) % 4], q[(j + 2) % 4]});
   for (const auto& t : mesh.triangles)
@@ -146,7 +148,7 @@ Mesh gridMesh(Evaluation& evaluation, const Component& creator) {
     throw Unplaceable(creator, "a grid has two points in each direction or more");
   if (!(counts[0] * counts[1] <= kMaxPoints)) throw Unplaceable(creator, "its resolution is out of all reason");
   const auto nx = static_cast<std::size_t>(counts[0]), ny = static_cast<std::size_t>(counts[1]);
-  const auto pattern = static_cast<int>(std::clamp(evaluation.number(creator, {"trianglePattern"}, 2), -1.0, 9.0));
+  const auto pattern = static_cast<int>(clamped(evaluation.number(creator, {"trianglePattern"}, 2), -1, 9));
   constexpr std::uint64_t kElements = 8;  // which take this many times the memory of the points
   evaluation.takePoints(creator, std::uint64_t{nx} * ny, kElements);
   Mesh mesh;
@@ -167,18 +169,22 @@ Mesh gridMesh(Evaluation& evaluation, const Component& creator) {
 }
 
 Mesh readBy(Evaluation& evaluation, const Component& loader, const std::filesystem::path& path) {
-  if (loader.kind() == ComponentKind::SphereLoader) return readSpheres(path);
-  if (loader.type == "MeshGmshLoader") return readGmsh(path);
+  const auto* stop = evaluation.scope().stop();
+  if (loader.kind() == ComponentKind::SphereLoader) return readSpheres(path, stop);
+  if (loader.type == "MeshGmshLoader") return readGmsh(path, stop);
   if (loader.type == "MeshVTKLoader")
-    return readVtk(path, evaluation.generation() == Generation::Sofa20 ? XmlSurfaces::Refused : XmlSurfaces::Read);
-  if (loader.type == "MeshOffLoader") return readOff(path);
+    return readVtk(path, evaluation.generation() == Generation::Sofa20 ? XmlSurfaces::Refused : XmlSurfaces::Read,
+                   stop);
+  if (loader.type == "MeshOffLoader") return readOff(path, stop);
   if (loader.type == "MeshTrianLoader") {
     if (evaluation.flag(loader, "trian2", false)) throw Unplaceable(loader, "files of the form trian2 cannot be read");
-    return readTrian(path);
+    return readTrian(path, stop);
   }
   if (loader.type == "MeshSTLLoader") throw Unplaceable(loader, "STL meshes in scenes cannot be read");
-  return readObj(path, {.triangulate = evaluation.flag(loader, "triangulate", false),
-                        .splitSeams = evaluation.flag(loader, "handleSeams", false)});
+  return readObj(path,
+                 {.triangulate = evaluation.flag(loader, "triangulate", false),
+                  .splitSeams = evaluation.flag(loader, "handleSeams", false)},
+                 stop);
 }
 
 }  // namespace
@@ -234,7 +240,8 @@ Mesh loadMesh(Evaluation& evaluation, const Component& loader) {
   transform(evaluation, loader, mesh);
   if (evaluation.flag(loader, "triangulate", false)) triangulate(mesh);
   const bool isGmsh = loader.type == "MeshGmshLoader";  // which alone makes them if it is not told
-  if (evaluation.flag(loader, "createSubelements", isGmsh)) addFaces(mesh), addEdges(mesh);
+  if (evaluation.flag(loader, "createSubelements", isGmsh))
+    addFaces(mesh, evaluation.scope()), addEdges(mesh, evaluation.scope());
   if (evaluation.flag(loader, "onlyAttachedPoints", false)) keepAttachedPoints(mesh);
   return mesh;
 }

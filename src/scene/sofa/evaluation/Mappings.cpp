@@ -26,7 +26,7 @@ class Carriers {
       evaluation.warn(mapping, "its repartition is not read, as in SOFA since 25.06, which calls it d_repartition");
     if (m_perPoint.size() != points) m_perPoint.clear();
     const auto index = evaluation.number(mapping, {"index"}, 0);
-    m_index = static_cast<std::size_t>(std::clamp(index, 0.0, 4e9));
+    m_index = static_cast<std::size_t>(clamped(index, 0, 4e9));
     m_isFromEnd = evaluation.flag(mapping, "indexFromEnd", false);
   }
 
@@ -76,7 +76,7 @@ LocalPoints localPoints(Evaluation& evaluation, const Component& mapping, const 
   }
   if (const auto file = evaluation.file(mapping, {"filename", "fileRigidMapping"})) {
     if (file->extension() == ".xs3") throw Unplaceable(mapping, "files of the kind .xs3 cannot be read");
-    local.setPoints(readMesh(*file).positions);
+    local.setPoints(readMesh(*file, evaluation.scope().stop()).positions);
     return {std::move(local), false};
   } else if (evaluation.isGiven(mapping, {"initialPoints"})) {
     const auto given = evaluation.numbers(mapping, {"initialPoints"}, child.width());

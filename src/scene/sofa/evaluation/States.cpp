@@ -218,6 +218,7 @@ constexpr std::array kProjections{
 };
 
 void warnOfProjections(Evaluation& evaluation, const Component& state) {
+  takeWork(evaluation, state, state.node->components.size());
   for (const auto& component : state.node->components)
     if (std::ranges::binary_search(kProjections, std::string_view{component->type}))
       evaluation.warn(*component,

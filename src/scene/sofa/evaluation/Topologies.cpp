@@ -37,7 +37,7 @@ std::optional<std::filesystem::path> meshFileOf(Evaluation& evaluation, const Co
 Topology meshTopology(Evaluation& evaluation, const Component& component) {
   Topology topology;
   if (const auto file = meshFileOf(evaluation, component)) {
-    topology.given = readMesh(*file);
+    topology.given = readMesh(*file, evaluation.scope().stop());
     checkMesh(topology.given, *file);
     warnOfPassedOver(evaluation, component, topology.given);
     topology.pointCount = topology.given.positions.size();
@@ -68,7 +68,7 @@ Topology containerTopology(Evaluation& evaluation, const Component& component) {
   topology.family = Topology::Family::Container;
   topology.given = containerLists(evaluation, component);
   const double count = evaluation.number(component, {"nbPoints"}, 0);
-  topology.pointCount = static_cast<std::size_t>(std::clamp(count, 0.0, kMaxPoints));
+  topology.pointCount = static_cast<std::size_t>(clamped(count, 0, kMaxPoints));
   Mesh counted;  // Beside positions only tetrahedra make room for the points that they use; since 19.06 all do alone.
   counted.tetrahedra = topology.given.tetrahedra;
   const std::size_t used = indicesUsed(topology.given.positions.empty() ? topology.given : counted);
@@ -212,7 +212,7 @@ std::optional<Mesh> surfaceOf(Evaluation& evaluation, const Component& component
   Mesh surface;
   if (const auto file = evaluation.file(component, {"filename", "fileTopology"})) {
     if (lowerExtension(*file) != ".obj") return std::nullopt;
-    surface = readObj(*file);
+    surface = readObj(*file, {}, evaluation.scope().stop());
     checkMesh(surface, *file);
   } else {
     surface = evaluation.elementLists(component);

@@ -34,10 +34,29 @@ LinkTarget findName(const Node* node, std::string_view name, bool alsoInAncestor
   return {};
 }
 
+/// The list that a node has of the wanted components; null where it has none.
+const std::vector<const Component*>* listOf(const Node& node, const Wanted& wanted) {
+  const auto* known = wanted.target<bool (*)(const Component&)>();
+  if (known == nullptr) return nullptr;
+  if (*known == isState) return &node.states;
+  return *known == isTopology ? &node.topologies : nullptr;
+}
+
+const Component* lastIn(const Node& node, const Wanted& wanted) {
+  if (const auto* list = listOf(node, wanted)) return list->empty() ? nullptr : list->back();
+  const auto last =
+      std::find_if(node.components.rbegin(), node.components.rend(), [&](const auto& c) { return wanted(*c); });
+  return last != node.components.rend() ? last->get() : nullptr;
+}
+
 }  // namespace
 
 void indexNames(Node& node) {
-  for (const auto& component : node.components) node.componentByName.emplace(component->name, component.get());
+  for (const auto& component : node.components) {
+    node.componentByName.emplace(component->name, component.get());
+    if (isState(*component)) node.states.push_back(component.get());
+    if (isTopology(*component)) node.topologies.push_back(component.get());
+  }
   for (const auto& child : node.children) {
     node.childByName.emplace(child->name, child.get());
     indexNames(*child);
@@ -89,14 +108,13 @@ LinkedData followLinkOf(const Component& self, std::string_view name) {
 }
 
 const Component* firstIn(const Node& node, const Wanted& wanted) {
+  if (const auto* list = listOf(node, wanted)) return list->empty() ? nullptr : list->front();
   const auto first = std::ranges::find_if(node.components, [&](const auto& c) { return wanted(*c); });
   return first == node.components.end() ? nullptr : first->get();
 }
 
 const Component* inContext(const Node& node, const Wanted& wanted) {
-  const auto last =
-      std::find_if(node.components.rbegin(), node.components.rend(), [&](const auto& c) { return wanted(*c); });
-  if (last != node.components.rend()) return last->get();
+  if (const auto* last = lastIn(node, wanted)) return last;
   return node.parent != nullptr ? firstInContext(*node.parent, wanted) : nullptr;
 }
 
@@ -111,13 +129,9 @@ const Component* followTo(const Component& self, std::string_view text, const Wa
   const auto target = followPath(*self.node, &self, text.substr(1));
   if (target.component != nullptr) return wanted(*target.component) ? target.component : nullptr;
   if (target.node == nullptr) return nullptr;
-  const Component* only = nullptr;
-  for (const auto& component : target.node->components) {
-    if (!wanted(*component)) continue;
-    if (only != nullptr) return nullptr;
-    only = component.get();
-  }
-  return only != nullptr ? only : inContext(*target.node, wanted);
+  const auto* first = firstIn(*target.node, wanted);
+  if (first == nullptr) return inContext(*target.node, wanted);
+  return first == lastIn(*target.node, wanted) ? first : nullptr;
 }
 
 const Component* mappingInput(const Component& mapping, const Wanted& wanted) {

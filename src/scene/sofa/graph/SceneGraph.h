@@ -106,6 +106,9 @@ struct Node {
   /// The first of each name, once indexNames() was called.
   std::unordered_map<std::string_view, const Component*> componentByName;
   std::unordered_map<std::string_view, const Node*> childByName;
+  /// Those that others look for most, in the order of `components`, likewise.
+  std::vector<const Component*> states;
+  std::vector<const Component*> topologies;
 
   /// "/Body/Surface"; empty for the root.
   [[nodiscard]] std::string path() const;

@@ -80,9 +80,9 @@ struct SourceFile {
   LineIndex lines;
   pugi::xml_document document;
 
-  explicit SourceFile(const std::filesystem::path& file)
+  SourceFile(const std::filesystem::path& file, const StopFlag* stop)
       : path(std::make_shared<const std::filesystem::path>(file)),
-        text(withAttributesApart(readText(file))),
+        text(withAttributesApart(readText(file, stop))),
         lines(text) {
     const auto result = document.load_buffer(text.data(), text.size());
     if (result.status == pugi::status_out_of_memory) throw std::bad_alloc();
@@ -118,20 +118,24 @@ Element::Splice spliceOf(std::string_view name) {
   return name == "_Merge_" ? Element::Splice::Merge : Element::Splice::Keep;
 }
 
-void merge(Element& into, Element&& from) {
+void merge(Element& into, Element&& from, ReadScope& scope) {
+  scope.checkStop();
+  if (!scope.takeWork(std::uint64_t{into.children.size() + from.children.size()} * from.children.size()))
+    throw Unplaceable(from.place, "merging its elements takes too long; a larger --max-memory allows more");
   for (const auto& [name, value] : from.attributes) into.attributes.set(name, value);
   for (auto& child : from.children) {
+    scope.checkStop();
     const auto same = std::ranges::find_if(into.children, [&](const Element& other) {
       return other.type == child.type && other.name == child.name && other.isNode == child.isNode;
     });
     if (same != into.children.end())
-      merge(*same, std::move(child));
+      merge(*same, std::move(child), scope);
     else
       into.children.push_back(std::move(child));
   }
 }
 
-void addChild(Element& parent, Element&& child) {
+void addChild(Element& parent, Element&& child, ReadScope& scope) {
   switch (child.splice) {
     case Element::Splice::Keep:
       parent.children.push_back(std::move(child));
@@ -140,7 +144,7 @@ void addChild(Element& parent, Element&& child) {
       std::ranges::move(child.children, std::back_inserter(parent.children));
       break;
     case Element::Splice::Merge:
-      merge(parent, std::move(child));
+      merge(parent, std::move(child), scope);
       break;
   }
 }
@@ -159,7 +163,7 @@ class ElementReader {
     auto& file = m_files[canonical];
     if (!file) {
       m_scope.admit(path);
-      file = std::make_unique<SourceFile>(path);
+      file = std::make_unique<SourceFile>(path, m_scope.stop());
     }
     auto root = read(*file, file->document.document_element());
     m_openFiles.pop_back();
@@ -198,7 +202,7 @@ class ElementReader {
     if (++m_depth > kMaxDepth) throw Unplaceable(element->place, "nodes are nested too deep");
     for (const auto& child : xml.children())
       if (child.type() == pugi::node_element)
-        if (auto read = this->read(file, child)) addChild(*element, std::move(*read));
+        if (auto read = this->read(file, child)) addChild(*element, std::move(*read), m_scope);
     --m_depth;
     return element;
   }

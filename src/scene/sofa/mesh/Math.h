@@ -72,6 +72,11 @@ struct Quat {
               (1 - 2 * (q.y * q.y + q.x * q.x)) * v[2]};
 }
 
+/// The number between the bounds that is nearest; the lower one for a NaN, which std::clamp would keep.
+[[nodiscard]] constexpr double clamped(double value, double low, double high) {
+  return value >= low ? std::min(value, high) : low;
+}
+
 /// The rotation Rz Ry Rx by angles in degrees about the fixed axes.
 [[nodiscard]] inline Quat fromEulerDegrees(const Vec3& degrees) {
   constexpr double kHalfRadians = std::numbers::pi / 360.0;

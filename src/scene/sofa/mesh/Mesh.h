@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "allpairs/FunctionRef.h"
+#include "allpairs/StopFlag.h"
 #include "sofa/mesh/Math.h"
 
 namespace allpairs::scene::sofa {
@@ -57,17 +58,18 @@ struct ObjOptions {
   bool splitSeams = false;   ///< One point for each combination of position, texture coordinate and normal.
 };
 
-// Each of these throws FileError, with the line, for what is malformed, cut off, or refers to points that don't exist.
+// Each of these throws FileError, with the line, for what is malformed, cut off, or refers to points that don't exist, and
+// Stopped soon after a flag that is given is set.
 
-[[nodiscard]] Mesh readObj(const std::filesystem::path& path, const ObjOptions& options = {});
-[[nodiscard]] Mesh readGmsh(const std::filesystem::path& path);
-[[nodiscard]] Mesh readSpheres(const std::filesystem::path& path);
-[[nodiscard]] Mesh readVtk(const std::filesystem::path& path, XmlSurfaces surfaces = XmlSurfaces::Read);
-[[nodiscard]] Mesh readOff(const std::filesystem::path& path);
-[[nodiscard]] Mesh readTrian(const std::filesystem::path& path);
+[[nodiscard]] Mesh readObj(const std::filesystem::path& path, const ObjOptions& options, const StopFlag* stop);
+[[nodiscard]] Mesh readGmsh(const std::filesystem::path& path, const StopFlag* stop);
+[[nodiscard]] Mesh readSpheres(const std::filesystem::path& path, const StopFlag* stop);
+[[nodiscard]] Mesh readVtk(const std::filesystem::path& path, XmlSurfaces surfaces, const StopFlag* stop);
+[[nodiscard]] Mesh readOff(const std::filesystem::path& path, const StopFlag* stop);
+[[nodiscard]] Mesh readTrian(const std::filesystem::path& path, const StopFlag* stop);
 
 /// Reads whatever of these the file's extension says; throws FileError for others.
-[[nodiscard]] Mesh readMesh(const std::filesystem::path& path);
+[[nodiscard]] Mesh readMesh(const std::filesystem::path& path, const StopFlag* stop);
 
 /// Throws FileError unless every element's corners are points of the mesh and every point is finite.
 void checkMesh(const Mesh& mesh, const std::filesystem::path& path);

@@ -34,8 +34,8 @@ void checkMesh(const Mesh& mesh, const std::filesystem::path& path) {
   checkElements(mesh.hexahedra, "hexahedron", mesh, path);
 }
 
-Mesh readSpheres(const std::filesystem::path& path) {
-  TextScanner text(path);
+Mesh readSpheres(const std::filesystem::path& path, const StopFlag* stop) {
+  TextScanner text(path, stop);
   if (text.wordInLine() != "sph") text.fail("a file of spheres starts with 'sph 1.0'");
   text.skipLine();
   Mesh mesh;
@@ -52,8 +52,8 @@ Mesh readSpheres(const std::filesystem::path& path) {
 }
 
 /// Lines that begin with '#' are comments, as in SOFA: before the counts, a point, or a face.
-Mesh readOff(const std::filesystem::path& path) {
-  TextScanner text(path);
+Mesh readOff(const std::filesystem::path& path, const StopFlag* stop) {
+  TextScanner text(path, stop);
   text.expect("OFF");
   text.skipComments();
   const auto points = text.integer(), faces = text.integer();
@@ -78,8 +78,8 @@ Mesh readOff(const std::filesystem::path& path) {
   return mesh;
 }
 
-Mesh readTrian(const std::filesystem::path& path) {
-  TextScanner text(path);
+Mesh readTrian(const std::filesystem::path& path, const StopFlag* stop) {
+  TextScanner text(path, stop);
   Mesh mesh;
   const auto points = text.integer();
   for (std::int64_t i = 0; i < points; ++i) mesh.positions.push_back(text.point());
@@ -93,14 +93,14 @@ Mesh readTrian(const std::filesystem::path& path) {
   return mesh;
 }
 
-Mesh readMesh(const std::filesystem::path& path) {
+Mesh readMesh(const std::filesystem::path& path, const StopFlag* stop) {
   const std::string extension = lowerExtension(path);
-  if (extension == ".obj") return readObj(path);
-  if (extension == ".msh") return readGmsh(path);
-  if (extension == ".sph") return readSpheres(path);
-  if (extension == ".vtk" || extension == ".vtu" || extension == ".vtp") return readVtk(path);
-  if (extension == ".off") return readOff(path);
-  if (extension == ".trian") return readTrian(path);
+  if (extension == ".obj") return readObj(path, {}, stop);
+  if (extension == ".msh") return readGmsh(path, stop);
+  if (extension == ".sph") return readSpheres(path, stop);
+  if (extension == ".vtk" || extension == ".vtu" || extension == ".vtp") return readVtk(path, XmlSurfaces::Read, stop);
+  if (extension == ".off") return readOff(path, stop);
+  if (extension == ".trian") return readTrian(path, stop);
   throw FileError(path, "meshes of the kind '" + extension + "' cannot be read here");
 }
 

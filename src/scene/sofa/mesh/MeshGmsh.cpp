@@ -12,7 +12,7 @@ namespace {
 /// Reference: Gmsh reference manual, "MSH file format" and "Legacy formats".
 class GmshReader {
  public:
-  explicit GmshReader(const std::filesystem::path& path) : m_text(path) {}
+  GmshReader(const std::filesystem::path& path, const StopFlag* stop) : m_text(path, stop) {}
 
   Mesh read() {
     bool points = false, elements = false;
@@ -190,6 +190,6 @@ class GmshReader {
 
 }  // namespace
 
-Mesh readGmsh(const std::filesystem::path& path) { return GmshReader(path).read(); }
+Mesh readGmsh(const std::filesystem::path& path, const StopFlag* stop) { return GmshReader(path, stop).read(); }
 
 }  // namespace allpairs::scene::sofa

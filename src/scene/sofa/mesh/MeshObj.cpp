@@ -14,8 +14,10 @@ namespace {
 /// Reads faces and lines as SOFA's loader does. What stands in the file no message repeats, as in TextScanner.
 class ObjReader final : ObjParser {
  public:
-  ObjReader(const std::filesystem::path& path, const ObjOptions& options)
-      : ObjParser(path, {.elements = "fl", .joinsLines = false, .readsSeams = true}), m_options(options) {}
+  ObjReader(const std::filesystem::path& path, const ObjOptions& options, const StopFlag* stop)
+      : ObjParser(path, {.elements = "fl", .joinsLines = false, .readsSeams = true}),
+        m_options(options),
+        m_stop(stop) {}
 
   Mesh read(std::string_view text) {
     parse(text);
@@ -30,6 +32,7 @@ class ObjReader final : ObjParser {
 
  private:
   void addPosition(std::string_view coordinates) override {
+    checkStop(m_stop);
     Vec3 position{};
     for (auto& coordinate : position) {
       const auto word = takeWord(coordinates, isBlank);
@@ -42,6 +45,7 @@ class ObjReader final : ObjParser {
   }
 
   void addElement(char /*kind*/, std::span<const ObjCorner> corners) override {
+    checkStop(m_stop);
     if (corners.size() >= 2) m_faces.push_back({line(), {corners.begin(), corners.end()}});
   }
 
@@ -104,15 +108,16 @@ class ObjReader final : ObjParser {
   }
 
   ObjOptions m_options;
+  const StopFlag* m_stop;
   Mesh m_mesh;
   std::vector<Face> m_faces;
 };
 
 }  // namespace
 
-Mesh readObj(const std::filesystem::path& path, const ObjOptions& options) {
-  const std::string text = readText(path);
-  return ObjReader(path, options).read(text);
+Mesh readObj(const std::filesystem::path& path, const ObjOptions& options, const StopFlag* stop) {
+  const std::string text = readText(path, stop);
+  return ObjReader(path, options, stop).read(text);
 }
 
 }  // namespace allpairs::scene::sofa

@@ -54,7 +54,8 @@ void addCells(const CellLists& lists, Mesh& mesh, const Fail& fail) {
 /// The old format: a header in text, the arrays in text or as big-endian bytes.
 class LegacyVtkReader {
  public:
-  LegacyVtkReader(const std::filesystem::path& path, std::string text) : m_text(path, std::move(text)) {}
+  LegacyVtkReader(const std::filesystem::path& path, std::string text, const StopFlag* stop)
+      : m_text(path, std::move(text), stop) {}
 
   Mesh read() {
     m_text.skipLine();
@@ -148,7 +149,7 @@ class XmlVtkReader {
     }
   }
 
-  Mesh read() {
+  Mesh read(const StopFlag* stop) {
     const auto file = m_document.child("VTKFile");
     const auto grid = file.child("UnstructuredGrid"), surface = file.child("PolyData");
     if (!grid && !surface) fail("only UnstructuredGrid and PolyData can be read");
@@ -157,6 +158,7 @@ class XmlVtkReader {
     const auto piece = (grid ? grid : surface).child("Piece");
     if (piece.next_sibling("Piece")) fail("has several pieces, of which SOFA keeps one only");
     const auto points = numbers(piece.child("Points").child("DataArray"));
+    checkStop(stop);
     for (std::size_t i = 0; i + 2 < points.size(); i += 3)
       m_mesh.positions.push_back({points[i], points[i + 1], points[i + 2]});
     auto cells = lists(piece.child(grid ? "Cells" : "Polys"));
@@ -166,6 +168,7 @@ class XmlVtkReader {
       for (const auto* count : {"NumberOfLines", "NumberOfStrips"})
         m_mesh.passedOver += piece.attribute(count).as_uint();
     }
+    checkStop(stop);
     addCells(cells, m_mesh, [this](const char* problem, std::size_t) { fail(problem); });
     return std::move(m_mesh);
   }
@@ -217,12 +220,12 @@ class XmlVtkReader {
 
 }  // namespace
 
-Mesh readVtk(const std::filesystem::path& path, XmlSurfaces surfaces) {
+Mesh readVtk(const std::filesystem::path& path, XmlSurfaces surfaces, const StopFlag* stop) {
   constexpr std::size_t kStart = 4096;
-  std::string text = readText(path);
-  if (text.starts_with("# vtk DataFile")) return LegacyVtkReader(path, std::move(text)).read();
+  std::string text = readText(path, stop);
+  if (text.starts_with("# vtk DataFile")) return LegacyVtkReader(path, std::move(text), stop).read();
   if (std::string_view{text}.substr(0, kStart).find("<VTKFile") != std::string_view::npos)
-    return XmlVtkReader(path, text, surfaces).read();
+    return XmlVtkReader(path, text, surfaces).read(stop);
   throw FileError(path, "this is no VTK file");
 }
 

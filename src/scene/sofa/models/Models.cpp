@@ -122,7 +122,7 @@ Box boundsOfGridSurface(Evaluation& evaluation, const Component& component) {
       evaluation.vector(component, {"rotation"}, {}) != Vec3{})
     throw Unplaceable(component, "a distance grid that is sampled, turned or inside out is not known to this reader");
   const double scale = std::abs(evaluation.number(component, {"scale"}, 1));
-  auto surface = readObj(*file);
+  auto surface = readObj(*file, {}, evaluation.scope().stop());
   if (surface.positions.empty()) throw Unplaceable(component, "its surface has no points");
   for (auto& p : surface.positions) p = p * scale;
   return boundsOf(surface.positions);
@@ -270,7 +270,7 @@ void describeRules(Evaluation& evaluation, const Component& component, ModelDesc
   model.contactDistance = evaluation.number(component, {"contactDistance", "proximity"}, 0);
   if (const auto groups = evaluation.numbers(component, {"group"}, 1))
     for (const double group : groups->values) {
-      if (std::abs(group) > std::numeric_limits<int>::max())
+      if (!(std::abs(group) <= std::numeric_limits<int>::max()))
         throw Unplaceable(component, "a group beyond all integers");
       model.groups.insert(static_cast<int>(group));
     }
@@ -281,9 +281,10 @@ void describeRules(Evaluation& evaluation, const Component& component, ModelDesc
 bool isMade(Evaluation& evaluation, const Component& model) {
   if (model.kind() != PointModel && model.kind() != LineModel && model.kind() != TriangleModel) return true;
   const auto* state = inContext(*model.node, isState);
+  if (state == nullptr || state->order < model.order) return true;  // most often, and seeks in no list of others
+  takeWork(evaluation, model, model.node->components.size());
   const auto* seen = inContext(*model.node, [&](const Component& c) { return isState(c) && c.order < model.order; });
-  if (state == nullptr || seen == state || (seen != nullptr && !isRigidTemplate(seen->attributes.value("template"))))
-    return true;
+  if (seen == state || (seen != nullptr && !isRigidTemplate(seen->attributes.value("template")))) return true;
   return evaluation.isMadeFor(model, *state, "it is left out");
 }
 
