@@ -33,6 +33,30 @@ class SofaMeshFile : public SceneTest {
   }
 };
 
+TEST_F(SofaMeshFile, AStopEndsTheReadingOfEveryKind) {
+  std::string plain, obj, spheres, gmsh;
+  for (int i = 0; i < 200; ++i) {
+    plain += "0 0 0\n";
+    obj += "v 0 0 0\n";
+    spheres += "sphe 0 0 0 0 1\n";
+    gmsh += std::to_string(i) + " 0 0 0\n";
+  }
+  const std::vector<std::pair<std::string, std::string>> files = {
+      {"a.obj", obj},
+      {"a.off", "OFF\n200 0 0\n" + plain},
+      {"a.trian", "200\n" + plain + "0\n"},
+      {"a.sph", "sph 1.0\n" + spheres},
+      {"a.msh", "$NOD\n200\n" + gmsh + "$ENDNOD\n$ELM\n0\n$ENDELM\n"},
+      {"a.vtk", "# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\nPOINTS 200 float\n" + plain}};
+  for (const auto& [name, text] : files) {
+    EXPECT_THAT(mesh(name, text).positions, SizeIs(200)) << name;
+    int asked = 0;
+    const auto isTime = [&asked] { return ++asked > 100; };
+    const StopFlag stop(isTime);
+    EXPECT_THROW((void)readMesh(m_folder.path() / name, &stop), Stopped) << name;
+  }
+}
+
 constexpr auto kObj = "# a comment\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 5 5 5\n";
 
 TEST_F(SofaMeshFile, ObjKeepsItsPointsAndTheOrderOfItsFaces) {

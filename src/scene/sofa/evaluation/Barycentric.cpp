@@ -310,10 +310,11 @@ bool areOf(const Topology& grid, const State& state) {
 
 }  // namespace
 
-void takeWork(Evaluation& evaluation, const Component& mapping, std::uint64_t pairs) {
+void takeWork(Evaluation& evaluation, const Component& component, std::uint64_t pairs) {
   evaluation.scope().checkStop();
   if (evaluation.scope().takeWork(pairs)) return;
-  throw Unplaceable(mapping, "looking for the places of its points takes too long; a larger --max-memory allows more");
+  throw Unplaceable(component,
+                    "looking for the places of its points takes too long; a larger --max-memory allows more");
 }
 
 std::vector<Vec3> mapBarycentrically(Evaluation& evaluation, const Component& mapping, const Component& parent,

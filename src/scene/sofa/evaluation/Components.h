@@ -32,7 +32,7 @@ void warnOfPassedOver(Evaluation& evaluation, const Component& component, const 
 [[nodiscard]] State initialState(Evaluation& evaluation, const Component& component);
 [[nodiscard]] State mapState(Evaluation& evaluation, const Component& mapping, State child);
 /// Whether SOFA has a mapping of this class between two kinds of states. If it has not it makes none, and that is noted.
-[[nodiscard]] bool isMade(Evaluation& evaluation, const Component& mapping, const State& from, const State& to);
+[[nodiscard]] bool canMap(Evaluation& evaluation, const Component& mapping, const State& from, const State& to);
 /// The points of several states, one after the other.
 [[nodiscard]] State mapAllOf(Evaluation& evaluation, const Component& mapping, State child);
 /// Chosen points of several states.
@@ -49,8 +49,9 @@ void warnOfPassedOver(Evaluation& evaluation, const Component& component, const 
 [[nodiscard]] State articulatedAtStart(Evaluation& evaluation, const Component& mapping, State child);
 /// Rigid frames that hang on each other by joints, at the angles of another state.
 [[nodiscard]] State mapArticulated(Evaluation& evaluation, const Component& mapping, State child);
-/// Counts pairs of points and what they are looked for in, and throws Unplaceable where that takes too long.
-void takeWork(Evaluation& evaluation, const Component& mapping, std::uint64_t pairs);
+/// Counts pairs of points and what they are looked for in, and throws Unplaceable where that takes too long, and Stopped
+/// where reading is to stop.
+void takeWork(Evaluation& evaluation, const Component& component, std::uint64_t pairs);
 [[nodiscard]] std::vector<Vec3> mapBarycentrically(Evaluation& evaluation, const Component& mapping,
                                                    const Component& parent, const State& child);
 /// How a state or a mesh loader moves its points: the data scale3d, rotation, translation, rotation2 and translation2.

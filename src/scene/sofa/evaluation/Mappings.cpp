@@ -183,7 +183,7 @@ State mapSubset(Evaluation& evaluation, const Component& mapping, const State& p
 
 }  // namespace
 
-bool isMade(Evaluation& evaluation, const Component& mapping, const State& from, const State& to) {
+bool canMap(Evaluation& evaluation, const Component& mapping, const State& from, const State& to) {
   const bool fromFrames = from.kind == State::Kind::Rigid, toFrames = to.kind == State::Kind::Rigid;
   const bool dropsTurns = mapping.kind() == IdentityMapping || mapping.kind() == SubsetMultiMapping;
   if (fromFrames == toFrames || (fromFrames && dropsTurns)) return true;
@@ -218,10 +218,10 @@ State mapState(Evaluation& evaluation, const Component& mapping, State child) {
     case RigidMapping:
       return mapRigidly(evaluation, mapping, evaluation.knownState(*input), child);
     case IdentityMapping:
-      if (!isMade(evaluation, mapping, evaluation.knownState(*input), child)) return child;
+      if (!canMap(evaluation, mapping, evaluation.knownState(*input), child)) return child;
       return mapIdentically(evaluation.knownState(*input), std::move(child));
     case SubsetMapping:
-      if (!isMade(evaluation, mapping, evaluation.knownState(*input), child)) return child;
+      if (!canMap(evaluation, mapping, evaluation.knownState(*input), child)) return child;
       return mapSubset(evaluation, mapping, evaluation.knownState(*input), child);
     default:
       break;

@@ -48,7 +48,7 @@ std::optional<double> massOf(const Component& bodies, std::size_t count) {
 State mapAllOf(Evaluation& evaluation, const Component& mapping, State child) {
   const auto inputs = inputsOf(evaluation, mapping);
   for (const auto* input : inputs)
-    if (!isMade(evaluation, mapping, *input, child)) return child;
+    if (!canMap(evaluation, mapping, *input, child)) return child;
   child.setCount(0);
   for (const auto* input : inputs) {
     evaluation.takePoints(mapping, input->positions.size());
@@ -60,7 +60,7 @@ State mapAllOf(Evaluation& evaluation, const Component& mapping, State child) {
 State mapSomeOf(Evaluation& evaluation, const Component& mapping, State child) {
   const auto inputs = inputsOf(evaluation, mapping);
   for (const auto* input : inputs)
-    if (!isMade(evaluation, mapping, *input, child)) return child;
+    if (!canMap(evaluation, mapping, *input, child)) return child;
   const auto pairs = evaluation.indices(mapping, {"indexPairs"});
   child.setCount(0);
   for (std::size_t i = 0; i + 1 < pairs.size(); i += 2) {

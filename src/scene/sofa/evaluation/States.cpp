@@ -93,7 +93,7 @@ const Component* topologyFor(Evaluation& evaluation, const Component& state) {
 }
 
 /// The points of the topology, if there is one that has points.
-void takePoints(Evaluation& evaluation, const Component& component, State& state) {
+void setPointsOfTopology(Evaluation& evaluation, const Component& component, State& state) {
   const auto* which = topologyFor(evaluation, component);
   if (which == nullptr) {
     if (state.positions.empty()) state.resize(0);
@@ -273,7 +273,7 @@ State initialState(Evaluation& evaluation, const Component& component) {
     largest = std::max(largest, countOf(evaluation, component, name, width));
   largest = std::max(largest, countOf(evaluation, component, "velocity", width == 7 ? 6 : 3));
   if (largest > std::max<std::size_t>(state.positions.size(), 1)) state.resize(largest);
-  if (state.positions.size() <= 1) takePoints(evaluation, component, state);
+  if (state.positions.size() <= 1) setPointsOfTopology(evaluation, component, state);
 
   if (motion) state.fromTopology = motion->map;
   place(evaluation, component, state);

@@ -232,7 +232,7 @@ class Roi {
   bool m_strict;
 };
 
-std::optional<Numbers> listOf(const Mesh& mesh, std::string_view kind) {
+std::optional<Numbers> partOutput(const Mesh& mesh, std::string_view kind) {
   if (kind == "points") return toNumbers(mesh.positions);
   if (kind == "edges") return toNumbers(mesh.edges);
   if (kind == "triangles") return toNumbers(mesh.triangles);
@@ -275,7 +275,7 @@ std::optional<Numbers> subsetOutput(Evaluation& evaluation, const Component& eng
   const Parting parting(mesh, regions, renumber, evaluation.scope());
   if (name == "indices") return Numbers{{parting.indices.begin(), parting.indices.end()}, 1};
   name.remove_suffix(isOut ? std::string_view{"OutROI"}.size() : std::string_view{"InROI"}.size());
-  return listOf(isOut ? parting.out : parting.in, name);
+  return partOutput(isOut ? parting.out : parting.in, name);
 }
 
 }  // namespace allpairs::scene::sofa

@@ -35,7 +35,7 @@ LinkTarget findName(const Node* node, std::string_view name, bool alsoInAncestor
 }
 
 /// The list that a node has of the wanted components; null where it has none.
-const std::vector<const Component*>* listOf(const Node& node, const Wanted& wanted) {
+const std::vector<const Component*>* indexed(const Node& node, const Wanted& wanted) {
   const auto* known = wanted.target<bool (*)(const Component&)>();
   if (known == nullptr) return nullptr;
   if (*known == isState) return &node.states;
@@ -43,7 +43,7 @@ const std::vector<const Component*>* listOf(const Node& node, const Wanted& want
 }
 
 const Component* lastIn(const Node& node, const Wanted& wanted) {
-  if (const auto* list = listOf(node, wanted)) return list->empty() ? nullptr : list->back();
+  if (const auto* list = indexed(node, wanted)) return list->empty() ? nullptr : list->back();
   const auto last =
       std::find_if(node.components.rbegin(), node.components.rend(), [&](const auto& c) { return wanted(*c); });
   return last != node.components.rend() ? last->get() : nullptr;
@@ -108,7 +108,7 @@ LinkedData followLinkOf(const Component& self, std::string_view name) {
 }
 
 const Component* firstIn(const Node& node, const Wanted& wanted) {
-  if (const auto* list = listOf(node, wanted)) return list->empty() ? nullptr : list->front();
+  if (const auto* list = indexed(node, wanted)) return list->empty() ? nullptr : list->front();
   const auto first = std::ranges::find_if(node.components, [&](const auto& c) { return wanted(*c); });
   return first == node.components.end() ? nullptr : first->get();
 }
