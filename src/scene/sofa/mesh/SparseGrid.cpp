@@ -148,7 +148,8 @@ class Voxels {
   }
 
   void mark(const Corners& triangle, const Range& range) {
-    const auto& [low, high] = range;
+    const auto& low = range.low;
+    const auto& high = range.high;
     for (auto x = low[0]; x <= high[0]; ++x) {
       m_takeWork(0);  // was taken; asks for a stop
       for (auto y = low[1]; y <= high[1]; ++y)
