@@ -580,6 +580,8 @@ typedef struct allpairs_sweep {
 } allpairs_sweep;
 
 /// Like find_first and find_all, for a swept box.
+///
+/// Bad input: a box with a NaN is an ALLPAIRS_INVALID_BOX.
 ALLPAIRS_C_API allpairs_status allpairs_world_sweep_first(allpairs_world* world, const allpairs_sweep* sweep,
                                                           const allpairs_query_filter* filter, allpairs_hit* hit);
 ALLPAIRS_C_API allpairs_status allpairs_world_sweep_all(allpairs_world* world, const allpairs_sweep* sweep,

@@ -110,9 +110,9 @@ struct Ray {
   double length = std::numeric_limits<double>::infinity();
 };
 
-/// A swept box: moved by t * motion, with 0 <= t <= length.
+/// A swept box: moved by t * motion, with 0 <= t <= length. An infinite box is taken; an empty one hits nothing.
 ///
-/// Bad input: as for a ray; an empty box hits nothing.
+/// Bad input: InvalidBox for a box with a NaN; InvalidArgument for an infinite motion, a NaN, or a negative length.
 struct BoxSweep {
   Box box;
   std::array<double, 3> motion{};

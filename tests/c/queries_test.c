@@ -121,6 +121,8 @@ static void nonsenseIsRefused(allpairs_world* world) {
   ALLPAIRS_CHECK(allpairs_world_find_all(world, NULL, NULL, &hits) == ALLPAIRS_INVALID_ARGUMENT);
   ALLPAIRS_CHECK(allpairs_world_sweep_all(world, &sweep, NULL, &hits) == ALLPAIRS_INVALID_ARGUMENT);
   ALLPAIRS_CHECK(allpairs_world_sweep_first(world, &sweep, NULL, NULL) == ALLPAIRS_INVALID_ARGUMENT);
+  const allpairs_sweep no_box = {{0, 0, 0, 1, NAN, 1}, {0, 0, 1}, 1};
+  ALLPAIRS_CHECK(allpairs_world_sweep_all(world, &no_box, NULL, &hits) == ALLPAIRS_INVALID_BOX && hits.count == 7);
   ALLPAIRS_CHECK(allpairs_world_find_nearest(world, &nearest, NULL, &neighbors) == ALLPAIRS_INVALID_ARGUMENT);
   ALLPAIRS_CHECK(allpairs_world_find_between(world, NULL, &pairs) == ALLPAIRS_INVALID_ARGUMENT);
 }

@@ -203,7 +203,10 @@ TEST(World, UnknownIdsAndNansAreNamedAndNothingIsDone) {
             2U);
   BoxProperties bad;
   bad.margin = kNan;
-  EXPECT_EQ(invalidBox([&] { world.setProperties(b, bad); }, "margin"), 0U);
+  EXPECT_EQ(invalidBox([&] { world.setProperties(b, bad); }, "the box with the id 1: its margin"), 0U);
+  const std::vector<BoxSweep> sweeps{{cube(0, 0, 0), {1, 0, 0}}, {{{0, kNan, 0}, {1, 1, 1}}, {1, 0, 0}}};
+  EXPECT_EQ(invalidBox([&] { static_cast<void>(world.findFirst(sweeps[1])); }, "sweep 0: its box has a NaN"), 0U);
+  EXPECT_EQ(invalidBox([&] { static_cast<void>(world.findAll(sweeps)); }, "sweep 1: its box has a NaN"), 1U);
   EXPECT_EQ(world.size(), 2U);
   EXPECT_EQ(world.box(a), cube(0, 0, 0));
   EXPECT_EQ(world.box(b), cube(3, 0, 0));
@@ -266,9 +269,9 @@ TEST(World, RaysAndSweepsThatMakeNoSenseAreNamed) {
             }),
             "ray 0: its origin is not finite");
   EXPECT_EQ(messageOf([&] {
-              static_cast<void>(world.findFirst(BoxSweep{{{0, kNan, 0}, {1, 1, 1}}, {1, 0, 0}}));
+              static_cast<void>(world.findFirst(BoxSweep{cube(0, 0, 0), {1, kInfinity, 0}}));
             }),
-            "sweep 0: its box has a NaN");
+            "sweep 0: its motion is not finite");
   std::vector<SweepHit> hits(1);
   EXPECT_EQ(messageOf([&] { world.findFirst(rays, hits); }),
             std::to_string(std::size(rays)) + " rays, and room for 1 hits");

@@ -28,13 +28,11 @@ void checkLength(std::size_t values, const char* what, std::size_t others, const
   throw InvalidArgument(std::to_string(values) + ' ' + what + " for " + std::to_string(others) + ' ' + whatOthers);
 }
 
-void checkProperties(std::span<const BoxProperties> properties, std::size_t boxes, bool mayBeNone) {
-  if (properties.size() != 1 && !(properties.empty() && mayBeNone)) {
-    checkLength(properties.size(), "properties", boxes);
-  }
+/// Of boxes that `nameOf` calls by their place in the batch.
+template <class NameOf>
+void checkMargins(std::span<const BoxProperties> properties, const NameOf& nameOf) {
   for (std::size_t i = 0; i < properties.size(); ++i) {
-    if (isDistance(properties[i].margin)) continue;
-    throw InvalidBox(i, "box " + std::to_string(i) + " of the batch: its margin is NaN or -infinity");
+    if (!isDistance(properties[i].margin)) throw InvalidBox(i, nameOf(i) + ": its margin is NaN or -infinity");
   }
 }
 
@@ -185,7 +183,8 @@ void BoxStore::check(std::span<const BoxId> ids) const {
 
 void BoxStore::add(const BoxView& boxes, std::span<const BoxProperties> properties, std::span<BoxId> ids) {
   checkLength(ids.size(), "ids", boxes.size());
-  checkProperties(properties, boxes.size(), true);
+  if (properties.size() > 1) checkLength(properties.size(), "properties", boxes.size());
+  checkMargins(properties, [](std::size_t i) { return "box " + std::to_string(i) + " of the batch"; });
   const std::size_t fresh = boxes.size() - std::min(boxes.size(), m_free.size());
   if (fresh > kNoBox - idBound()) {
     throw InvalidArgument(std::to_string(boxes.size()) + " more boxes; at most 4294967295 can be numbered");
@@ -301,8 +300,10 @@ void BoxStore::clear() {
 }
 
 void BoxStore::setProperties(std::span<const BoxId> ids, std::span<const BoxProperties> properties) {
-  checkProperties(properties, ids.size(), false);
+  if (properties.size() != 1) checkLength(properties.size(), "properties", ids.size());
   check(ids);
+  if (ids.empty()) return;
+  checkMargins(properties, [&](std::size_t i) { return "the box with the id " + std::to_string(ids[i]); });
   reserveResettled(ids.size(), idBound());
   prepare(idBound(), Needs::of(properties));
   for (std::size_t i = 0; i < ids.size(); ++i) {

@@ -25,12 +25,12 @@ bool isFinite(const std::array<double, 3>& values) {
 }
 
 void checkSweep(const BoxSweep& sweep, bool isRay, std::size_t index) {
-  const auto refuse = [&](const char* why) {
+  const auto refuse = [&](const std::string& why) {
     throw InvalidArgument((isRay ? "ray " : "sweep ") + std::to_string(index) + why);
   };
   if (isRay && !isFinite(sweep.box.min)) refuse(": its origin is not finite");
-  if (hasNan(sweep.box)) refuse(": its box has a NaN");
-  if (!isFinite(sweep.motion)) refuse(": its direction is not finite");
+  if (hasNan(sweep.box)) throw InvalidBox(index, "sweep " + std::to_string(index) + ": its box has a NaN");
+  if (!isFinite(sweep.motion)) refuse(std::string(": its ") + (isRay ? "direction" : "motion") + " is not finite");
   if (std::isnan(sweep.length) || sweep.length < 0.0) refuse(": its length is NaN or negative");
 }
 
