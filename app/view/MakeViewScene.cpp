@@ -11,6 +11,7 @@
 #include "ClashPicture.h"
 #include "Explain.h"
 #include "ModelMesh.h"
+#include "PageSize.h"
 #include "allpairs/collision/BoxModel.h"
 #include "allpairs/collision/BruteForceBroadPhase.h"
 #include "allpairs/parallel/TbbExecutor.h"
@@ -163,6 +164,21 @@ void addExact(const scene::Scene& from, const ViewRequest& request, view::ViewSc
   to.clearance = clearance;
 }
 
+/// Gives the first frame the pairs that a rule excludes. More than a million would show nothing, and take the room of
+/// those that count.
+void addExcluded(view::ViewScene& to) {
+  constexpr std::size_t kMost = 1'000'000;
+  view::ViewFrame& frame = to.frames.front();
+  std::optional<std::vector<Pair>> excluded = view::excludedPairs(to, frame, kMost);
+  to.leavesOutExcluded = !excluded;
+  if (excluded) frame.excluded = *std::move(excluded);
+}
+
+/// Of what a page must show, throws before pairs are copied that are too many for it.
+void checkPage(const ViewRequest& request, const view::ViewScene& scene, std::size_t pairs) {
+  if (request.isForPage) view::checkPageSize(scene, 1, scene.modelCount * sizeof(Box) + pairs * sizeof(Pair));
+}
+
 void fill(scene::Scene& from, const ViewRequest& request, view::ViewScene& to) {
   if (!from.pipelines.empty())
     throw UsageError(
@@ -174,6 +190,7 @@ void fill(scene::Scene& from, const ViewRequest& request, view::ViewScene& to) {
   to.addsContactDistances = from.intersection->addsContactDistances();
   to.region = from.region;
   to.modelCount = from.models.size();
+  checkPage(request, to, detection.pairs.size());
   if (from.up != 0) to.up = from.up;
   to.metresPerUnit = from.metresPerUnit;
   to.ignored = from.remarks;
@@ -181,7 +198,7 @@ void fill(scene::Scene& from, const ViewRequest& request, view::ViewScene& to) {
   addColumns(from, to);
   addBodies(from, request.grouping, to);
   to.frames.push_back(frameOf(from, detection));
-  to.frames.front().excluded = view::excludedPairs(to, to.frames.front());
+  addExcluded(to);
   addExact(from, request, to);
 }
 
@@ -202,9 +219,6 @@ void addGroups(const std::vector<std::uint32_t>& groups, view::ViewScene& to) {
   for (std::uint32_t group = 1; group <= groups.back(); ++group) to.groupSets.push_back({static_cast<int>(group)});
 }
 
-/// Excluded pairs that a page has: more would show nothing, and take the room of those that count.
-constexpr std::size_t kMostExcluded = 1'000'000;
-
 void fill(const BoxInput& input, const ViewRequest& request, view::ViewScene& to) {
   const scene::BoxArray& from = input.boxes;
   if (request.shapes == ShapeTest::Always) {
@@ -221,16 +235,11 @@ void fill(const BoxInput& input, const ViewRequest& request, view::ViewScene& to
   addGroups(input.groups, to);
   addBoxNames(from, to);
   const Detection detection = detectBoxes(from, BoxPairOrder::NewestFirst, options);
+  checkPage(request, to, detection.pairs.size());
   view::ViewFrame frame = boxFrame(from.boxes(), options);
   for (const auto& [first, second] : detection.pairs) frame.pairs.push_back({second, first});
-  if (!input.groups.empty()) frame.excluded = view::excludedPairs(to, frame);
-  if (frame.excluded.size() > kMostExcluded) {
-    to.ignored.push_back(
-        {.subject = "pairs within one input",
-         .reason = fmt::format("{} are excluded, too many to be shown", grouped(frame.excluded.size()))});
-    frame.excluded = {};
-  }
   to.frames.push_back(std::move(frame));
+  if (!input.groups.empty()) addExcluded(to);
   to.statistics = detection.statistics;
 }
 

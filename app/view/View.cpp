@@ -109,7 +109,8 @@ std::string whatIsIn(const view::ViewScene& scene) {
 }
 
 view::ViewScene sceneOf(const ViewSettings& settings) {
-  const ViewRequest request = viewRequest(settings.view);
+  ViewRequest request = viewRequest(settings.view);
+  request.isForPage = true;
   if (settings.sequence && settings.input.betweenInputs)
     throw UsageError("--between-inputs: the inputs of --sequence are one mesh at several times");
   return settings.sequence ? makeViewFrames(settings.input, request) : makeViewScene(settings.input, request);

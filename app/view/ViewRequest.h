@@ -23,6 +23,7 @@ struct ViewRequest {
   DetectionOptions detection{};
   ShapeTest shapes = ShapeTest::Never;
   Grouping grouping = Grouping::Body;
+  bool isForPage = false;   ///< What is too much for a page is an error; a report can do without one.
   std::optional<int> up{};  ///< The axis that points up, 1 to 3 for x to z; else as the input says.
 };
 

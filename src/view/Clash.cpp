@@ -23,6 +23,13 @@ std::uint64_t hashOf(const std::vector<std::string>& texts, std::uint64_t seed) 
   return hash;
 }
 
+/// How far two boxes reach into each other on an axis; below 0 it is a gap. Those that meet at infinity touch there.
+double sharedExtent(const Box& a, const Box& b, std::size_t axis) {
+  const double low = std::max(a.min[axis], b.min[axis]);
+  const double high = std::min(a.max[axis], b.max[axis]);
+  return low == high ? 0.0 : high - low;  // and not infinity minus infinity
+}
+
 /// How far boxes are apart, on the axis on which it is most; 0 where they are not.
 double gapOf(const Clash& clash) {
   return std::max(0.0, -*std::min_element(clash.overlap.begin(), clash.overlap.end()));
@@ -155,7 +162,7 @@ Clash clashOf(const ViewScene& scene, std::size_t index) {
   if (scene.isExact) clash.exact = &scene.exact[index];
   clash.volume = 1.0;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    clash.overlap[axis] = std::min(a.max[axis], b.max[axis]) - std::max(a.min[axis], b.min[axis]);
+    clash.overlap[axis] = sharedExtent(a, b, axis);
     clash.volume *= std::max(0.0, clash.overlap[axis]);
   }
   if (std::any_of(clash.overlap.begin(), clash.overlap.end(), [](double extent) { return extent <= 0.0; })) {
@@ -169,7 +176,8 @@ std::string shortNumber(double value) {
   constexpr int kMostDigits = 15;
   constexpr int kSmallestWithoutExponent = -6;
   if (value == 0.0) return "0";
-  if (!std::isfinite(value)) return value > 0.0 ? "∞" : "-∞";
+  if (std::isnan(value)) return "NaN";
+  if (std::isinf(value)) return value > 0.0 ? "∞" : "-∞";
   const int exponent = static_cast<int>(std::floor(std::log10(std::abs(value))));
   const int digits = std::clamp(exponent + 1, kFewestDigits, kMostDigits);
   if (exponent < kSmallestWithoutExponent || exponent >= kMostDigits) return fmt::format("{:.{}g}", value, digits);

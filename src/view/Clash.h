@@ -56,7 +56,8 @@ struct Clash {
 /// What was found in all, in a few words: "3 clashes (1 duplicate), 6 apart", or "12 pairs of boxes".
 [[nodiscard]] std::string headlineOf(const ViewScene& scene);
 
-/// A number with few digits, and all before the point; measure() in web/src/format.js writes the same: 0.125, 102361.
+/// A number with few digits, and all before the point: 0.125, 102361. From 1e-6 to 1e15 measure() in web/src/format.js
+/// writes the same, but for the sign of what is below 0.
 [[nodiscard]] std::string shortNumber(double value);
 
 /// The coordinates of a point as short numbers; what is nothing beside the largest of them is 0.

@@ -7,7 +7,9 @@
 #include <limits>
 #include <span>
 
+#include "allpairs/Error.h"
 #include "allpairs/Overlaps.h"
+#include "allpairs/StopFlag.h"
 
 namespace allpairs::view {
 namespace {
@@ -64,8 +66,8 @@ Explanation explainFlags(const ViewScene& scene, const ViewFrame& frame, std::ui
   return {};
 }
 
-/// Boxes near by a little more than the rules ask; explain() then decides.
-std::vector<Pair> nearBoxes(const ViewScene& scene, const ViewFrame& frame) {
+/// Visits boxes near by a little more than the rules ask, until `stop` is set; explain() then decides.
+void streamNearBoxes(const ViewScene& scene, const ViewFrame& frame, PairVisitor visitor, const StopFlag& stop) {
   constexpr double kSlack = 1e-9;  // sums of three distances in another order differ by less
   BoxView boxes(frame.boxes);
   double largest = std::abs(scene.distance);
@@ -76,7 +78,11 @@ std::vector<Pair> nearBoxes(const ViewScene& scene, const ViewFrame& frame) {
   OverlapOptions options;
   options.order = Order::BySecond;
   options.distance = scene.distance + (std::isfinite(largest) ? largest * kSlack : 0.0);
-  return overlaps(boxes, options);
+  options.stop = &stop;
+  try {
+    streamOverlaps(boxes, visitor, options);
+  } catch (const Stopped&) {  // by the visitor, who has what it wants
+  }
 }
 
 }  // namespace
@@ -109,15 +115,27 @@ std::string_view verdictName(Verdict verdict) {
   return kNames[static_cast<std::size_t>(verdict)];
 }
 
-std::vector<Pair> excludedPairs(const ViewScene& scene, const ViewFrame& frame) {
+std::optional<std::vector<Pair>> excludedPairs(const ViewScene& scene, const ViewFrame& frame, std::size_t most) {
   std::vector<Pair> result;
-  for (const auto& [older, newer] : nearBoxes(scene, frame)) {
+  StopFlag tooMany;
+  const auto isExcluded = [&](std::uint32_t newer, std::uint32_t older) {
     const Verdict verdict = explain(scene, frame, newer, older).verdict;
     const bool isByRule =
         verdict == Verdict::NotSimulated || verdict == Verdict::SameOwner || verdict == Verdict::SameGroup;
-    if (!isByRule || !overlap(frame.boxes[newer], frame.boxes[older], distanceOf(scene, newer, older))) continue;
-    result.push_back({newer, older});
-  }
+    return isByRule && overlap(frame.boxes[newer], frame.boxes[older], distanceOf(scene, newer, older));
+  };
+  const auto visit = [&](Span<const Pair> pairs) {
+    for (const auto& [older, newer] : pairs) {
+      if (tooMany.isSet()) return;
+      if (!isExcluded(newer, older)) continue;
+      if (result.size() == most)
+        tooMany.set();
+      else
+        result.push_back({newer, older});
+    }
+  };
+  streamNearBoxes(scene, frame, visit, tooMany);
+  if (tooMany.isSet()) return std::nullopt;
   return result;
 }
 

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string_view>
+#include <vector>
 
 #include "ViewScene.h"
 
@@ -46,7 +49,8 @@ struct Explanation {
 [[nodiscard]] std::string_view verdictName(Verdict verdict);
 
 /// The pairs of models whose boxes are near enough and which a rule keeps apart, (newer, older), as the double loop
-/// meets them.
-[[nodiscard]] std::vector<Pair> excludedPairs(const ViewScene& scene, const ViewFrame& frame);
+/// meets them; nothing where there are more than `most`.
+[[nodiscard]] std::optional<std::vector<Pair>> excludedPairs(const ViewScene& scene, const ViewFrame& frame,
+                                                             std::size_t most);
 
 }  // namespace allpairs::view

@@ -144,6 +144,7 @@ std::string leftOutOf(const ViewScene& scene) {
                                  counted(scene.ignored.size(), "part"));
   for (const scene::Remark& remark : std::span(scene.ignored).first(std::min(scene.ignored.size(), kMostRows)))
     text += fmt::format("<li>{}</li>", escapeHtml(validUtf8(textOf(remark))));
+  if (scene.ignored.size() > kMostRows) text += fmt::format("<li>and {} more</li>", scene.ignored.size() - kMostRows);
   return text + "</ul></details>\n";
 }
 
@@ -163,6 +164,8 @@ std::string changesOf(const Since* since) {
   text += "<details><summary>Resolved, and no longer listed</summary><ul>";
   for (const EarlierClash& clash : std::span(since->gone).first(std::min(since->gone.size(), kMostRows)))
     text += fmt::format("<li>{} and {}</li>", escapeHtml(clash.first), escapeHtml(clash.second));
+  if (since->gone.size() > kMostRows)
+    text += fmt::format("<li>and {} more, in clashes.csv</li>", since->gone.size() - kMostRows);
   return text + "</ul></details>\n";
 }
 
@@ -199,7 +202,7 @@ std::string introduction(const Report& report) {
   text += changesOf(report.since) + worstOf(scene, clashes) + scopeOf(scene, candidates) + leftOutOf(scene) +
           aboutOf(report);
   if (scene.modelCount == 0) return text + "<p>The input has no models.</p>\n";
-  if (candidates == 0) return text + "<p>No two models are near enough to touch: there is nothing to look at.</p>\n";
+  if (candidates == 0) return text + "<p>No pair was found: there is nothing to look at.</p>\n";
   if (count == 0) return text + "<p>No two models touch: there is nothing to look at.</p>\n";
   return text + (scene.isExact ? kOfShapes : kOfBoxes) + filesOf(report);
 }

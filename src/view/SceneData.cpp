@@ -264,6 +264,7 @@ void addScene(const ViewScene& scene, JsonText& json) {
   json.add("up", scene.up);
   json.add("frames", scene.frames.size());
   json.add("meshIsShortened", scene.mesh.isShortened);
+  json.add("leavesOutExcluded", scene.leavesOutExcluded);
   addList("names", scene.names, json);
   addList("bodyNames", scene.bodyNames, json);
   addList("kinds", scene.kinds, json);
@@ -290,6 +291,9 @@ std::string scriptSafe(const std::string& json) {
 }  // namespace
 
 SceneData dataOf(const ViewScene& scene) {
+  std::size_t least = 0;  // a scene that is too large anyway is not copied first
+  for (const ViewFrame& frame : scene.frames) least += bytesOf(frame, frame.pairs.size() + frame.excluded.size());
+  checkPageSize(scene, scene.frames.size(), least);
   ArrayWriter arrays;
   const std::vector<double> origin = originOf(scene);
   std::vector<double> region;

@@ -127,9 +127,12 @@ std::string keyOf(std::string first, std::string second) {
 
 std::string textOf(const EarlierPlace& place) { return place.file.empty() ? "" : place.file + '\n' + place.path; }
 
-std::string textOf(const ViewScene& scene, std::uint32_t model) {
-  return scene.fileNames[scene.files[model]] + '\n' + scene.paths[model];
+/// Of a model of now, as the table has it.
+std::string placeTextOf(const ViewScene& scene, std::uint32_t model) {
+  return validUtf8(scene.fileNames[scene.files[model]]) + '\n' + validUtf8(scene.paths[model]);
 }
+
+std::string nameTextOf(const ViewScene& scene, std::uint32_t model) { return validUtf8(scene.name(model)); }
 
 /// Finds the row that an earlier report had for each of now.
 class RowMatch {
@@ -138,10 +141,11 @@ class RowMatch {
       : m_earlier(earlier), m_clashes(clashes), m_found(clashes.size(), nullptr) {
     matchBy([](const EarlierClash& clash) { return clash.guid; }, [](const Clash& clash) { return clash.guid; });
     if (scene.files.empty()) return;
-    matchBy([](const EarlierClash& clash) { return keyOf(textOf(clash.places[0]), textOf(clash.places[1])); },
-            [&](const Clash& clash) { return keyOf(textOf(scene, clash.first), textOf(scene, clash.second)); });
+    matchBy(
+        [](const EarlierClash& clash) { return keyOf(textOf(clash.places[0]), textOf(clash.places[1])); },
+        [&](const Clash& clash) { return keyOf(placeTextOf(scene, clash.first), placeTextOf(scene, clash.second)); });
     matchBy([](const EarlierClash& clash) { return keyOf(clash.first, clash.second); },
-            [&](const Clash& clash) { return keyOf(scene.name(clash.first), scene.name(clash.second)); });
+            [&](const Clash& clash) { return keyOf(nameTextOf(scene, clash.first), nameTextOf(scene, clash.second)); });
   }
 
   [[nodiscard]] const EarlierClash* of(std::size_t clash) const { return m_found[clash]; }

@@ -67,6 +67,7 @@ struct ViewScene {
   ViewMesh mesh;
   std::vector<std::uint32_t> corners;  ///< Of a sequence of meshes, whose models are triangles: three vertices each.
   std::vector<ViewFrame> frames;       ///< At least one.
+  bool leavesOutExcluded = false;      ///< There are so many excluded pairs that frames have none of them.
   std::vector<scene::Remark> ignored;
   scene::DetectionStatistics statistics;
   /// What the shapes of the first frame's pairs say, in their order; empty: not asked.

@@ -67,11 +67,10 @@ std::string Zip::finish() {
   if (zip_source_open(m_source) != 0) throw Error("cannot read the archive back");
   zip_stat_t status{};
   std::string result;
-  if (zip_source_stat(m_source, &status) == 0) {
-    result.resize(status.size);
-    result.resize(static_cast<std::size_t>(zip_source_read(m_source, result.data(), result.size())));
-  }
+  if (zip_source_stat(m_source, &status) == 0) result.resize(status.size);
+  const zip_int64_t read = zip_source_read(m_source, result.data(), result.size());
   zip_source_close(m_source);
+  if (read <= 0 || static_cast<std::size_t>(read) != result.size()) throw Error("cannot read the archive back");
   return result;
 }
 

@@ -126,11 +126,15 @@ TEST(BetweenInputs, AReportAndAPageLeaveThemOut) {
   }
 }
 
-/// How many pairs a page says that a rule excludes.
-std::size_t excludedIn(const std::string& page) {
+Json sceneIn(const std::string& page) {
   const std::string begin = "id=\"allpairs-scene\">";
   const std::size_t place = page.find(begin) + begin.size();
-  const Json scene = Json::parse(page.substr(place, page.find("</script>", place) - place));
+  return Json::parse(page.substr(place, page.find("</script>", place) - place));
+}
+
+/// How many pairs a page says that a rule excludes.
+std::size_t excludedIn(const std::string& page) {
+  const Json scene = sceneIn(page);
   for (const Json& array : scene["arrays"]) {
     if (array["name"] == "excluded") return array["length"].get<std::size_t>() / 2;
   }
@@ -150,6 +154,31 @@ TEST(BetweenInputs, APageSaysWhichPairsTheyAre) {
     EXPECT_EQ(excludedIn(runProgram(words).out), 1U) << shapes;
     words.back() = "4,0,0,9,9,9";
     EXPECT_EQ(excludedIn(runProgram(words).out), 0U) << shapes;
+  }
+}
+
+TEST(BetweenInputs, APageLeavesOutMoreThanAMillionAndSaysSo) {
+  const TempFolder folder;
+  std::string boxes;
+  std::string parts = "v 0 0 0\nv 1 0 0\nv 0 1 1\n";
+  for (int i = 0; i < 1500; ++i) {  // in one place: 1,124,250 pairs
+    boxes += "0,0,0,1,1,1\n";
+    parts += fmt::format("o {}\nf 1 2 3\n", i);
+  }
+  const std::string one = folder.write("one.csv", "5,0,0,6,1,1\n");
+  for (const std::string many : {folder.write("many.csv", boxes), folder.write("many.obj", parts)}) {
+    const ProgramRun run = runProgram({"view", many, one, "--between-inputs"});
+    expectSuccess(run);
+    EXPECT_EQ(excludedIn(run.out), 0U) << many;
+    const Json scene = sceneIn(run.out);
+    EXPECT_TRUE(scene.contains("leavesOutExcluded") && scene["leavesOutExcluded"]) << many;
+    EXPECT_EQ(scene["ignored"], Json::array()) << "nothing of the input";
+    const std::string report = many + "-report";
+    expectSuccess(runProgram({"report", many, one, "--between-inputs", "-o", report}));
+    std::ifstream page(report + "/index.html");
+    const std::string text{std::istreambuf_iterator<char>(page), {}};
+    EXPECT_EQ(text.find("left out, and not tested"), std::string::npos);
+    EXPECT_NE(text.find("No pair was found"), std::string::npos);
   }
 }
 

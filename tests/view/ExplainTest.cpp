@@ -168,6 +168,8 @@ TEST(ExcludedPairs, AreThoseThatTouchAndThatARuleKeepsApart) {
     }
     EXPECT_FALSE(expected.empty());
     EXPECT_EQ(frame.excluded, expected) << path;
+    EXPECT_EQ(excludedPairs(scene, frame, expected.size()), expected) << path;
+    EXPECT_EQ(excludedPairs(scene, frame, expected.size() - 1), std::nullopt) << path;
   }
 }
 

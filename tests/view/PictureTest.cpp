@@ -301,6 +301,7 @@ TEST(Clash, NumbersHaveFiveDigitsAndAllBeforeThePoint) {
                                                             {4.97592, "4.9759"},
                                                             {99999.6, "100000"},
                                                             {-12.5, "-12.5"},
+                                                            {std::numeric_limits<double>::quiet_NaN(), "NaN"},
                                                             {1234.56, "1234.6"},
                                                             {0.00012345678, "0.00012346"},
                                                             {5.000000000000001, "5"},

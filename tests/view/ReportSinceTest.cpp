@@ -210,6 +210,22 @@ TEST(ReportSince, FilesOfOneNameAreKnownByTheirFolders) {
   for (const auto& [name, guid] : before) EXPECT_NE(after.at("left"), guid) << name;
 }
 
+TEST(ReportSince, NamesThatAreNotUtf8AreKnownAgain) {
+  const TempFolder folder;
+  folder.write("parts/a.obj", "o tr\xe4ger\n" + kTriangle);
+  folder.write("parts/b.obj", "o st\xfctze\n" + kTriangle);
+  const std::string parts = folder.path() / "parts";
+  const fs::path out = folder.path() / "out";
+  expectSuccess(runProgram({"report", parts, "--boxes", "-o", out}));
+  const std::string guid = rowsOf(out).at(0).at("guid");
+  fs::rename(folder.path() / "parts/a.obj", folder.path() / "parts/c.obj");
+  expectSuccess(runProgram({"report", parts, "--boxes", "-o", out, "--since", out}));
+  const auto rows = rowsOf(out);
+  ASSERT_EQ(rows.size(), 1U);
+  EXPECT_EQ(rows[0].at("since"), "persisting");
+  EXPECT_EQ(rows[0].at("guid"), guid);
+}
+
 TEST(ReportSince, SaysWhatIsNoReport) {
   const TempFolder folder;
   const std::string out = folder.path() / "out";

@@ -223,7 +223,7 @@ TEST(Report, WithoutPairsSaysSo) {
   const std::string input = folder.write("a.csv", "0,0,0,1,1,1\n5,5,5,6,6,6\n");
   expectSuccess(runProgram({"report", input, "-o", folder.path() / "out"}));
   const std::string page = readBytes(folder.path() / "out/index.html");
-  EXPECT_NE(page.find("No two models are near enough to touch"), std::string::npos);
+  EXPECT_NE(page.find("No pair was found"), std::string::npos);
   EXPECT_EQ(page.find("<table"), std::string::npos);
   EXPECT_EQ(readBytes(folder.path() / "out/clashes.csv"),
             "number,first,second,overlap_x,overlap_y,overlap_z,volume,guid\n");

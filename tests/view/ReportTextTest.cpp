@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -100,6 +101,17 @@ TEST(Finding, SaysOfBoxesWhatTheyShareOrOnWhichAxisTheyAreApart) {
             "The bounding boxes do not overlap, but lie within the distance: they are 0.5 apart on z.");
   boxes.scene.frames.front().pairs = {{1, 1}};
   EXPECT_EQ(boxes.finding(), "The model may touch itself.");
+}
+
+TEST(Finding, BoxesThatMeetAtInfinityTouchThere) {
+  constexpr double kInfinite = std::numeric_limits<double>::infinity();
+  OfShapes boxes(exactPair(ExactState::Clash));
+  boxes.scene.isExact = false;
+  boxes.scene.frames.front().boxes = {{{kInfinite, 0, 0}, {kInfinite, 2, 2}}, {{0, 1, 0}, {kInfinite, 3, kInfinite}}};
+  EXPECT_EQ(boxes.finding(), "The bounding boxes overlap by 0, 1, 2; they share a volume of 0.");
+  boxes.scene.frames.front().boxes[1].min[1] = 2.5;
+  EXPECT_EQ(boxes.finding(),
+            "The bounding boxes do not overlap, but lie within the distance: they are 0.5 apart on y.");
 }
 
 TEST(Finding, CoordinatesThatAreNothingBesideTheLargestAreZero) {
@@ -337,7 +349,7 @@ TEST(ReportText, WithoutRowsSaysWhy) {
             emptyContent("0 pairs of boxes", "0 models, 0 candidates by their boxes.", "The input has no models."));
   scene.modelCount = 1;
   EXPECT_EQ(page(), emptyContent("0 pairs of boxes", "1 model, 0 candidates by their boxes.",
-                                 "No two models are near enough to touch: there is nothing to look at."));
+                                 "No pair was found: there is nothing to look at."));
   scene.modelCount = 3;
   scene.isExact = true;
   scene.exact.assign(2, exactPair(ExactState::Apart));

@@ -119,6 +119,7 @@ ViewScene sceneOfAll() {
   scene.mesh.lineEnds = {0, 2, 2};
   scene.mesh.pointEnds = {0, 0, 1};
   scene.mesh.isShortened = true;
+  scene.leavesOutExcluded = true;
   const std::vector<Box> boxes{{{2, 0, 0}, {4, 4, 6}}, {{4, 2, 2}, {8, 8, 8}}, {{-90, 0, 0}, {1, kInfinite, 1}}};
   scene.frames.push_back({.boxes = boxes, .flags = {1, 2, 4}, .pairs = {{1, 0}, {2, 0}, {2, 1}}, .excluded = {{2, 1}}});
   scene.frames.push_back({.boxes = {{{0, 1, 2}, {3, 4, 5}}, {{6, 7, 8}, {9, 10, 11}}, {{0, 0, 0}, {1, 1, 1}}},
@@ -147,7 +148,7 @@ TEST(SceneData, HasTheWholeSceneAsText) {
   const std::string expected =
       R"({"format":1,"version":")" ALLPAIRS_VERSION
       R"(","title":"\u003c/a>","method":"shapes","addsContactDistances":true,"models":3,"isExact":true,)"
-      R"("exactSeconds":1.5,"clearance":0.25,"up":-3,"frames":2,"meshIsShortened":true,)"
+      R"("exactSeconds":1.5,"clearance":0.25,"up":-3,"frames":2,"meshIsShortened":true,"leavesOutExcluded":true,)"
       R"("names":["a","b\u003c!--","c"],"bodyNames":["A","B"],"kinds":["IfcSlab","",""],"ids":["id","",""],)"
       R"("typeNames":["T","U"],"groupSets":[[],[2,5]],)"
       R"("statistics":{"strategy":"bvh","threads":2,"verified":true,"testsOfAllPairs":3,"testsMade":4,)"

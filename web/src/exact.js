@@ -45,12 +45,11 @@ export class ExactPairs {
     return view.some((part) => part !== 0) ? view : null;
   }
 
-  /** Orders entries, the worst first; equal ones stay as they were found. */
+  /** Orders entries, the worst first, as isWorse() in ExactPair.cpp says; equal ones stay as they were found. */
   worstFirst(entries) {
-    const key = (e) => (this.stateOf(e) < state.touching ? -(this.of(e).depth ?? 0) : this.of(e).distance);
-    return entries.sort((a, b) => this.stateOf(a) - this.stateOf(b) || key(a) - key(b) || a - b);
+    const depth = (e) => this.of(e).depth ?? 0;
+    return entries.sort((a, b) => this.stateOf(a) - this.stateOf(b) || depth(b) - depth(a) || this.of(a).distance - this.of(b).distance || a - b);
   }
-
 }
 
 export const clashCount = (counts) => counts[state.duplicate] + counts[state.contained] + counts[state.clash];

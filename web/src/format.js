@@ -11,6 +11,7 @@ export const counted = (number, one, more = `${one}s`) => `${grouped(number)} ${
 
 /** A length or volume with as many digits as anybody reads, and all before the point: as shortNumber() in Clash.cpp. */
 export function measure(value, digits = 5) {
+  if (Number.isNaN(value)) return "NaN";
   if (!Number.isFinite(value)) return value > 0 ? "∞" : "−∞";
   const whole = value === 0 ? 1 : Math.floor(Math.log10(Math.abs(value))) + 1;
   const text = String(Number(value.toPrecision(Math.min(15, Math.max(digits, whole)))));

@@ -56,9 +56,22 @@ function field(value) {
   return /[",\r\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text;
 }
 
+/** The columns of a list, which it has without an entry too. */
+const columns = {
+  pairs: ({ scene }) => [
+    "number", "first", "second",
+    ...(scene.exact === null ? ["kind", "overlap_x", "overlap_y", "overlap_z", "volume"] : Object.keys(findingFields({ state: state.notExamined }))),
+    ...(scene.ids.length > 0 ? ["first_type", "first_id", "second_type", "second_id"] : []),
+  ],
+  models: ({ scene }) => [
+    "model", "name", "type", ...(scene.ids.length > 0 ? ["ifcType", "globalId"] : []), "partners", "hidden",
+    ...["min", "max"].flatMap((corner) => ["x", "y", "z"].map((axis) => `${corner}_${axis}`)),
+  ],
+};
+
 /** Rows as CSV; a mark says that it is UTF-8 where it is not ASCII, as spreadsheets want it. */
-export function csvOf(rows) {
-  const text = [Object.keys(rows[0] ?? {}), ...rows.map(Object.values)].map((cells) => `${cells.map(field).join(",")}\n`).join("");
+export function csvOf(rows, head = Object.keys(rows[0])) {
+  const text = [head, ...rows.map(Object.values)].map((cells) => `${cells.map(field).join(",")}\n`).join("");
   return /[\u0080-\uffff]/.test(text) ? `\ufeff${text}` : text;
 }
 
@@ -78,7 +91,7 @@ export function setUpSaving(app, panels) {
   const listed = { pairs: listedPairs, models: listedModels };
   for (const [list, panel] of Object.entries(panels)) {
     for (const [suffix, [format, type]] of Object.entries(kinds)) {
-      byId(`${list}-${suffix}`).addEventListener("click", () => save(`${list}.${suffix}`, new Blob([format(listed[list](app, panel.items))], { type })));
+      byId(`${list}-${suffix}`).addEventListener("click", () => save(`${list}.${suffix}`, new Blob([format(listed[list](app, panel.items), columns[list](app))], { type })));
     }
   }
 }

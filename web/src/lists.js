@@ -10,10 +10,11 @@ import { flag } from "./rules.js";
 
 export const kindNames = ["free", "pair", "self", "excluded", "out"];
 
-/** Which models' names have a word in them, for each word. */
-function masksOf(scene, query) {
+/** Which models' names, or those of their bodies, have a word in them, for each word. */
+export function masksOf(scene, query) {
   const words = query.toLowerCase().split(/\s+/).filter(Boolean);
-  return words.map((word) => Uint8Array.from({ length: scene.models }, (_, i) => (scene.nameOf(i).toLowerCase().includes(word) ? 1 : 0)));
+  const namesOf = scene.hasBodies ? (i) => `${scene.nameOf(i)}\n${scene.bodyNameOf(i)}` : scene.nameOf;
+  return words.map((word) => Uint8Array.from({ length: scene.models }, (_, i) => (namesOf(i).toLowerCase().includes(word) ? 1 : 0)));
 }
 
 /** Button with a count that switches a filter on and off. */

@@ -7,6 +7,9 @@ import { isEmpty } from "./rules.js";
 /** What a model or an entry is shown as. The numbers are places in the palette; see palette.js. */
 export const kind = { free: 0, pair: 1, self: 2, excluded: 3, out: 4 };
 
+/** Excluded pairs that a page has; of more it has none, as app/view/MakeViewScene.cpp says too. */
+export const mostExcluded = 1_000_000;
+
 export class PairTable {
   constructor(frame, { exact, bodyOf, hasBodies }) {
     this.frame = frame;
@@ -122,9 +125,13 @@ export class PairTable {
   }
 }
 
-/** How far two boxes reach into each other, per axis; negative where they are apart. */
+/** How far two boxes reach into each other, per axis; negative where they are apart. Those that meet at infinity touch there. */
 export function sharedExtents(boxes, a, b) {
-  return [0, 1, 2].map((k) => Math.min(boxes[6 * a + 3 + k], boxes[6 * b + 3 + k]) - Math.max(boxes[6 * a + k], boxes[6 * b + k]));
+  return [0, 1, 2].map((k) => {
+    const low = Math.max(boxes[6 * a + k], boxes[6 * b + k]);
+    const high = Math.min(boxes[6 * a + 3 + k], boxes[6 * b + 3 + k]);
+    return low === high ? 0 : high - low; // and not infinity minus infinity
+  });
 }
 
 /** The volume of what two boxes share, from its extents: none where one of these is, and not infinity times zero. */

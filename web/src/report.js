@@ -16,7 +16,9 @@ function make(tag, { label, ...properties } = {}, ...children) {
 
 const notes = new Notes(document.querySelector("h1").textContent);
 const cards = new Map(all("figure[data-guid]").map((card) => [card.dataset.guid, card]));
+const captions = new Map([...cards].map(([guid, card]) => [guid, card.textContent.toLowerCase()])); // before fields are added
 const rows = all("tbody tr");
+const listed = new Set(rows.map((row) => row.dataset.guid)); // of many clashes the table has only the first
 
 /** What a cell is sorted by: its number, or its text in lower case; what is empty comes last. */
 function keyOf(row, column) {
@@ -109,14 +111,16 @@ const textOf = (row) => [...row.cells].map((cell) => cell.textContent).join(" ")
 /** Hides what the search and the choice of a status leave out. */
 function filter() {
   const words = controls.search.value.toLowerCase().split(/\s+/).filter(Boolean);
+  const isWanted = (text, status) => [status, ""].includes(controls.status.value) && words.every((word) => text.includes(word));
   const shown = new Set();
   for (const row of rows) {
-    const text = textOf(row);
-    const isStatus = controls.status.value === "" || row.querySelector(".status").textContent === controls.status.value;
-    row.hidden = !isStatus || !words.every((word) => text.includes(word));
+    row.hidden = !isWanted(textOf(row), row.querySelector(".status").textContent);
     if (!row.hidden) shown.add(row.dataset.guid);
   }
-  for (const [guid, card] of cards) card.hidden = !shown.has(guid);
+  for (const [guid, card] of cards) {
+    const [status, comment] = ["select", "textarea"].map((part) => card.querySelector(`.review ${part}`).value);
+    card.hidden = listed.has(guid) ? !shown.has(guid) : !isWanted(`${captions.get(guid)} ${comment.toLowerCase()}`, status);
+  }
   controls.count.textContent = shown.size === rows.length ? "" : `${shown.size} of ${rows.length}`;
 }
 

@@ -4,7 +4,7 @@
 import { byId, fillWith, make } from "./dom.js";
 import { clashCount, kindsOfClashes, state } from "./exact.js";
 import { counted, grouped, measure, percent, seconds } from "./format.js";
-import { kind } from "./pairs.js";
+import { kind, mostExcluded } from "./pairs.js";
 
 function fact(label, value, id, note) {
   const number = make("dd", "", value);
@@ -39,11 +39,13 @@ function exactFacts({ scene, table }) {
   const clashes = clashCount(counts);
   const worst = exact.worstFirst(Array.from({ length: exact.count }, (_, e) => e));
   const deepest = worst.reduce((most, e) => (exact.stateOf(e) <= state.clash ? Math.max(most, exact.of(e).depth ?? 0) : most), 0);
+  const mayShare = counts[state.undecided] + counts[state.notExamined] > 0 || worst.some((e) => exact.stateOf(e) === state.touching && exact.of(e).depth > 0);
   const notes = kindsOfClashes(counts);
+  if (clashes === 0 && !mayShare) notes.push("no two models share space");
   if (deepest > 0) notes.push(`deepest\u00a0${measure(deepest)}`);
   const others = [[state.touching, "Touching", "touching"], [state.undecided, "Undecided", "undecided"], [state.clearance, "Near", "clearance"], [state.notExamined, "Not examined", "unknown"]];
   return [
-    fact(clashes === 1 ? "Clash" : "Clashes", grouped(clashes), "fact-clashes", notes.join(", ") || (clashes === 0 ? "no two models share space" : "")),
+    fact(clashes === 1 ? "Clash" : "Clashes", grouped(clashes), "fact-clashes", notes.join(", ")),
     ...others.filter(([is]) => counts[is] > 0).map(([is, label, id]) => fact(label, grouped(counts[is]), `fact-${id}`, is === state.clearance ? `within ${measure(exact.clearance)}` : "")),
     fact("Apart", grouped(counts[state.apart]), "fact-apart", `of ${counted(counts.reduce((sum, count) => sum + count), scene.hasBodies ? "row" : "candidate")}`),
   ];
@@ -52,6 +54,7 @@ function exactFacts({ scene, table }) {
 function remarks(scene) {
   const notes = [];
   if (scene.meshIsShortened) notes.push(make("p", "remark", "Some shapes are left out, because there are too many triangles; their boxes are here."));
+  if (scene.leavesOutExcluded) notes.push(make("p", "remark", `More than ${grouped(mostExcluded)} pairs are excluded by a rule: none of them is here.`));
   if (scene.ignored.length > 0) {
     const list = make("ul");
     for (const { file, line, subject, reason } of scene.ignored) {
@@ -67,9 +70,11 @@ export function showSummary(app) {
   const { scene } = app;
   byId("title").textContent = scene.title;
   byId("method").textContent = scene.method;
-  fillWith(byId("remarks"), ...remarks(scene));
   byId("effort").textContent = effort(scene);
+  let isToldOfExcluded; // another margin has others
   const update = () => {
+    if (isToldOfExcluded !== scene.leavesOutExcluded) fillWith(byId("remarks"), ...remarks(scene));
+    isToldOfExcluded = scene.leavesOutExcluded;
     const found = scene.exact ? exactFacts(app) : [fact(scene.hasBodies ? "Pairs of bodies" : "Pairs", grouped(app.counts[kind.pair] + app.counts[kind.self]), "fact-pairs", pairNotes(app))];
     fillWith(
       byId("facts"),

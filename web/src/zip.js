@@ -24,12 +24,18 @@ function endOf(view) {
   throw new Error("no zip archive");
 }
 
+/** Throws where numbers do not fit into 16 and 32 bits: only zip64 archives have such, and are not written here. */
+function checkSize(count, place) {
+  if (count >= 0xffff || place >= 0xffffffff) throw new Error("clashes.bcf has too many topics for comments to be added here");
+}
+
 /** The entries of an archive in their order, compressed as they are. */
 export function readZip(bytes) {
   const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
   const end = endOf(view);
   const entries = [];
   let at = view.getUint32(end + 16, true);
+  checkSize(view.getUint16(end + 10, true), at);
   for (let left = view.getUint16(end + 10, true); left > 0; --left) {
     if (view.getUint32(at, true) !== listMark) throw new Error("a damaged zip archive");
     const [size, nameLength, extraLength, noteLength] = [view.getUint32(at + 20, true), ...[28, 30, 32].map((place) => view.getUint16(at + place, true))];
@@ -85,6 +91,7 @@ export function writeZip(entries) {
     list.push(header(listMark, 46, entry, name, place), name);
     place += 30 + name.length + entry.packed.length;
   }
+  checkSize(entries.length, place);
   const end = new DataView(new ArrayBuffer(22));
   end.setUint32(0, endMark, true);
   end.setUint16(8, entries.length, true);

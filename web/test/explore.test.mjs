@@ -186,6 +186,8 @@ inBoth("what is listed is saved as in the report, as CSV and as JSON, names are 
     assert.deepEqual(json.map((row) => unquoted(row)), csv.map((row) => unquoted(row)));
     await page.fill("#pairs-search", json[0].first);
     assert.ok(rowsOf(await saved("pairs-csv")).every((row) => [row.first, row.second].includes(csv[0].first)), "only what is listed");
+    await page.fill("#pairs-search", "no such name");
+    assert.equal(await saved("pairs-csv"), `${Object.keys(json[0]).join(",")}\n`, "without an entry it has its columns");
     await page.keyboard.press("Escape");
     await page.click("#tab-models");
     const models = JSON.parse(await saved("models-json"));
@@ -252,11 +254,18 @@ inBoth("what is saved of an IFC has classes and GlobalIds, as the report has the
   const named = models.map((model) => [model.name, model.ifcType, model.globalId]);
   assert.deepEqual(expected.map(pick), detect(input).pairs.map((pair) => pair.flatMap((model) => named[model])));
   assert.deepEqual(rowsOf(await saved("pairs-csv")).map(pick), expected.map(pick));
-  assert.deepEqual(JSON.parse(await saved("pairs-json")).map(pick), expected.map(pick));
+  const saidOfPairs = JSON.parse(await saved("pairs-json"));
+  assert.deepEqual(saidOfPairs.map(pick), expected.map(pick));
   await page.click("#tab-models");
   const ofModel = (row) => [row.name, row.ifcType, row.globalId];
   assert.deepEqual(rowsOf(await saved("models-csv")).map(ofModel), named);
-  assert.deepEqual(JSON.parse(await saved("models-json")).map(ofModel), named);
+  const saidOfModels = JSON.parse(await saved("models-json"));
+  assert.deepEqual(saidOfModels.map(ofModel), named);
+  for (const [list, said] of [["models", saidOfModels], ["pairs", saidOfPairs]]) {
+    await page.click(`#tab-${list}`);
+    await page.fill(`#${list}-search`, "no such name");
+    assert.equal(await saved(`${list}-csv`), `${Object.keys(said[0]).join(",")}\n`, "without an entry it has its columns");
+  }
   assert.deepEqual(page.problems, []);
   await page.close();
 });

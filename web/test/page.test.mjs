@@ -659,6 +659,18 @@ inChromium("ten thousand models with fifty thousand pairs are all there", async 
   await page.close();
 });
 
+inChromium("that no two models share space is said where that is known", { skip: hasExact() ? false : "built without FCL" }, async () => {
+  const apart = write("apart.obj", cuboid("a", [0, 0, 0], [1, 1, 1]) + cuboid("b", [1, 0, 0], [2, 1, 1]));
+  const deep = write("deep.obj", cuboid("a", [0, 0, 0], [1, 1, 1]) + cuboid("b", [0.99, 0, 0], [2, 1, 1]));
+  for (const [input, isKnown] of [[apart, true], [deep, false]]) {
+    const page = await view("known", [input, "--min-depth", "0.05"], { exact: true });
+    assert.equal(await number(page, "#fact-touching"), 1);
+    assert.equal(/no two models share space/.test(await page.textContent("#fact-clashes")), isKnown);
+    assert.deepEqual(page.problems, []);
+    await page.close();
+  }
+});
+
 inBoth("what really clashes comes first, what is apart is counted and hidden", { skip: hasExact() ? false : "built without FCL" }, async () => {
   const input = shapes();
   const result = detect(input, "--exact");

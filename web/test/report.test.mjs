@@ -153,6 +153,27 @@ test("clashes of a status are shown, and a later report of the same parts has th
   await context.close();
 });
 
+test("a clash that the table has no room for is shown, searched and noted by its picture", async () => {
+  const boxes = "0,0,0,2,2,2,slab\n1,0,0,3,2,2,wall\n2.5,0,0,9,2,2,door\n";
+  const out = join(folder, "beyond");
+  allpairs("report", write("beyond.csv", boxes), "-o", out);
+  const index = join(out, "index.html");
+  writeFileSync(index, readFileSync(index, "utf8").replace(/<tr[^>]*>(?:(?!<tr).)*<\/tr>\n(?=<\/tbody>)/s, "")); // as behind the first 10,000
+  const page = await open(index);
+  const shown = () => page.locator("figure:visible").count();
+  assert.equal(await page.locator("tbody tr").count(), 1);
+  assert.equal(await shown(), 2);
+  await page.fill(".controls input[type=search]", "Door");
+  assert.equal(await shown(), 1);
+  await page.locator("figure:visible textarea").fill("Later");
+  await page.fill(".controls input[type=search]", "later");
+  assert.equal(await shown(), 1);
+  await page.selectOption(".controls select", "Accepted");
+  assert.equal(await shown(), 0);
+  assert.deepEqual(page.problems, []);
+  await page.close();
+});
+
 test("a picture opens the page at its pair, though names repeat", { skip }, async () => {
   const parts = [1, 2, 3].map((i) => write(`same/${i}/bar.obj`, cuboid("bar", [0, 0, 0], [4, 4, i])));
   const page = await report("opened", parts);

@@ -7,8 +7,13 @@ import { join } from "node:path";
 import { test } from "node:test";
 import { parseScene } from "../src/data.js";
 import { measure } from "../src/format.js";
+import { ExactPairs, state } from "../src/exact.js";
 import { csvOf } from "../src/listed.js";
+import { masksOf } from "../src/lists.js";
+import { pairsAt } from "../src/margin.js";
+import { sharedExtents } from "../src/pairs.js";
 import { explain } from "../src/rules.js";
+import { readZip, writeZip } from "../src/zip.js";
 import { allpairs, clothFrames, dataFolder, folder, root, scenesIn, verdicts, write } from "./program.mjs";
 
 function sceneOf(...args) {
@@ -74,7 +79,7 @@ test("verdicts of real scenes are the program's", { skip: data ? false : "no fol
 
 test("numbers are written as in the report", () => {
   // The same list is in tests/view/PictureTest.cpp, for the report.
-  const numbers = [[0, "0"], [0.125, "0.125"], [102360.7, "102361"], [4.97592, "4.9759"], [99999.6, "100000"], [-12.5, "−12.5"], [1234.56, "1234.6"], [0.00012345678, "0.00012346"], [5.000000000000001, "5"], [1e9, "1000000000"], [0.1 + 0.2, "0.3"]];
+  const numbers = [[0, "0"], [0.125, "0.125"], [102360.7, "102361"], [4.97592, "4.9759"], [99999.6, "100000"], [-12.5, "−12.5"], [NaN, "NaN"], [1234.56, "1234.6"], [0.00012345678, "0.00012346"], [5.000000000000001, "5"], [1e9, "1000000000"], [0.1 + 0.2, "0.3"]];
   for (const [value, text] of numbers) assert.equal(measure(value), text);
 });
 
@@ -82,4 +87,44 @@ test("a name that may be a formula is written as in the report's table", () => {
   const names = ["=1+1", "'=1+1", "''-x", "'a", "a=1", "-inf", "'", "\t1"]; // "-inf" is a number that JSON has not
   const fields = csvOf(names.map((name) => ({ name }))).trimEnd().split("\n").slice(1);
   assert.deepEqual(fields, ["'=1+1", "''=1+1", "'''-x", "'a", "a=1", "-inf", "'", "'\t1"]);
+});
+
+test("boxes that meet at infinity touch there, as in the report", () => {
+  const boxes = Float64Array.of(Infinity, 0, 0, Infinity, 2, 2, 0, 1, 0, Infinity, 3, Infinity);
+  assert.deepEqual(sharedExtents(boxes, 0, 1), [0, 1, 2]);
+});
+
+test("pairs are ordered as in the report: by state, then the deepest, then the nearest", () => {
+  const found = [["touching", 0.01, 0], ["touching", 0.03, 0], ["clearance", NaN, 2], ["touching", 0.02, 0], ["clearance", NaN, 1], ["clash", 0.1, 0], ["clash", NaN, 0]];
+  const exactNumbers = new Float64Array(17 * found.length);
+  found.forEach(([, depth, distance], e) => exactNumbers.set([distance, depth], 17 * e));
+  const exact = new ExactPairs({}, { exactStates: Uint8Array.from(found, ([name]) => state[name]), exactNumbers });
+  assert.deepEqual(exact.worstFirst([0, 1, 2, 3, 4, 5, 6]), [5, 6, 1, 3, 0, 4, 2]);
+});
+
+test("a margin with more pairs than the page can hold is refused, and excluded ones are left out", () => {
+  const models = 2001; // in one place: 2,001,000 pairs
+  const boxes = Float64Array.from({ length: 6 * models }, (_, i) => (i % 6 < 3 ? 0 : 1));
+  const numbers = Uint32Array.from({ length: models }, (_, i) => i);
+  const scene = { models, addsContactDistances: false, contactDistances: new Float64Array(models), groupSets: [[], [1]], groups: new Uint32Array(models), owners: numbers, sequence: null };
+  const frame = { boxes, flags: new Uint8Array(models).fill(7) };
+  assert.equal(pairsAt(scene, frame, 0), null);
+  const found = pairsAt({ ...scene, groups: new Uint32Array(models).fill(1) }, frame, 0);
+  assert.deepEqual(found, { pairs: new Uint32Array(), excluded: new Uint32Array(), leavesOutExcluded: true });
+});
+
+test("an archive of more files than 16 bits count is refused, not cut", () => {
+  const entry = { name: "a", method: 0, moment: 0, checksum: 0, length: 0, packed: new Uint8Array() };
+  const bytesOf = (parts) => Buffer.concat(parts.map((part) => Buffer.from(part.buffer ?? part, part.byteOffset, part.byteLength)));
+  const most = bytesOf(writeZip(new Array(65_534).fill(entry)));
+  assert.equal(readZip(most).length, 65_534);
+  assert.throws(() => writeZip(new Array(65_535).fill(entry)), /too many topics/);
+  most.fill(0xff, most.length - 14, most.length - 10); // both counts, as in a zip64 archive
+  assert.throws(() => readZip(most), /too many topics/);
+});
+
+test("models are found by the names of their bodies too, which rows of several pairs show", () => {
+  const scene = { models: 2, hasBodies: true, nameOf: (i) => ["block", "pin"][i], bodyNameOf: (i) => ["X1.obj", "x2.obj"][i] };
+  assert.deepEqual(masksOf(scene, "x1").map((mask) => [...mask]), [[1, 0]]);
+  assert.deepEqual(masksOf(scene, "pin X2 block").map((mask) => [...mask]), [[0, 1], [0, 1], [1, 0]]);
 });
