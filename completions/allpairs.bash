@@ -162,7 +162,7 @@ _allpairs() {
         --threads) return ;;
         -o | --output) files=-d ;;
         --bcf) words='2.1 3.0' ;;
-        --since) files=-d ;;
+        --since) files=-f ;;
         --fail-on) words='pair clash new' ;;
         --pictures) return ;;
         --metres-per-unit) return ;;

@@ -28,7 +28,7 @@ std::optional<double> parseNumber(std::string_view text) {
 std::string describeOrder(const Box& box) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (box.min[axis] < box.max[axis]) continue;
-    return std::string("its min must be less than its max on every axis, and is not in ") + "xyz"[axis];
+    return std::string("its min must be less than its max on every axis, and is not on ") + "xyz"[axis];
   }
   return {};
 }

@@ -34,7 +34,11 @@ std::string problemOfSofa(const std::string& text) {
 
 void addReadLimits(CLI::App& command, ReadLimits& limits) {
   command.add_flag("--allow-outside", limits.allowOutside, "Let inputs name files outside of their own folders");
-  command.add_option("--max-memory", limits.maxMemory, "Read within so much memory; by default half of the machine's")
+  command
+      .add_option(
+          "--max-memory", limits.maxMemory,
+          "Read within so much memory; by default 256M and 256 bytes for each byte of the files, at most half of "
+          "the machine's")
       ->type_name("SIZE");
   command
       .add_option("--input-format", limits.inputFormat,

@@ -28,9 +28,9 @@ Examples:
   allpairs completion zsh > ~/.zfunc/_allpairs
   allpairs completion fish > ~/.config/fish/completions/allpairs.fish)";
 
-/// What a value may be, by what help calls it: words with a bar between them, FILE, DIR.
+/// What a value may be, by what help calls it: words with a bar between them, FILE, DIR, LAST, which is either.
 ValueWords valuesOf(const std::string& type) {
-  ValueWords values{.isFile = type == "FILE", .isFolder = type == "DIR"};
+  ValueWords values{.isFile = type == "FILE" || type == "LAST", .isFolder = type == "DIR"};
   if (type.find('|') == std::string::npos) return values;
   for (std::size_t begin = 0; begin <= type.size();) {
     const std::size_t end = std::min(type.find('|', begin), type.size());

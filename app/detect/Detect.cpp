@@ -23,6 +23,7 @@
 #include "cli/Table.h"
 #include "cli/Terminal.h"
 #include "cli/Text.h"
+#include "cli/TextParts.h"
 #include "cli/Timer.h"
 #include "detect/DetectWorlds.h"
 #include "detect/Detection.h"
@@ -108,7 +109,8 @@ struct Outcome {
 void writeExact(const Outcome& outcome, const std::string& format, Output& output) {
   const scene::ResultView& result = outcome.result;
   const ExactReport& exact = *outcome.exact;
-  const auto sink = [&output](std::string_view bytes) { output.write(bytes); };
+  TextParts parts(output);
+  const auto sink = [&parts](std::string_view bytes) { parts.write(bytes); };
   if (format == "json") {
     writeExactJson(result, exact, sink);
   } else if (format == "csv") {
@@ -118,6 +120,7 @@ void writeExact(const Outcome& outcome, const std::string& format, Output& outpu
   } else {
     writeExactTable(result, exact, outcome.notes, sink);
   }
+  parts.flush();
 }
 
 std::string summaryOf(const Outcome& outcome) {
@@ -176,6 +179,8 @@ void checkWhy(const DetectSettings& settings) {
       {"--exact", settings.exact},
       {"--worlds", settings.worlds},
       {"--verify", settings.verify},
+      {"--strategy", settings.strategy != "auto"},
+      {"--threads", settings.threads != "0"},
       {"--fail-on", !settings.failOn.empty()},
       {"format " + settings.format, settings.format != kDetectFormats.front()}};
   for (const auto& [name, isGiven] : others) {
@@ -200,6 +205,8 @@ void runDetect(const DetectSettings& settings, const DetectionOptions& options) 
     throw UsageError("--clearance is measured between shapes: add --exact, or use --distance for boxes");
   if (settings.search.leastDepth && !settings.exact) throw UsageError("--min-depth is of shapes: add --exact");
   if (settings.failOn == "clash" && !settings.exact) throw UsageError("--fail-on clash is of shapes: add --exact");
+  if (settings.color == "always" && (settings.format != "table" || settings.worlds || !settings.why.empty()))
+    throw UsageError("--color is of the table of pairs, and there is none");
   if (!settings.why.empty()) return explain(settings, options, output);
   if (settings.worlds) {
     if (settings.exact) throw UsageError("--exact tests shapes; the boxes of --worlds have none");

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <iterator>
 #include <memory>
 #include <optional>
 #include <span>
@@ -22,6 +21,7 @@
 #include "cli/Progress.h"
 #include "cli/Table.h"
 #include "cli/Text.h"
+#include "cli/TextParts.h"
 #include "cli/Timer.h"
 #include "input/Inputs.h"
 
@@ -82,28 +82,6 @@ void verify(const Worlds& worlds, const WorldPairsView& found, OverlapOptions op
     }
   }
 }
-
-/// Passes on text a part at a time.
-class TextParts {
- public:
-  explicit TextParts(Output& output) : m_output(output) {}
-
-  template <class... Values>
-  void add(fmt::format_string<Values...> format, Values&&... values) {
-    fmt::format_to(std::back_inserter(m_text), format, std::forward<Values>(values)...);
-    if (m_text.size() > kPart) flush();
-  }
-  void flush() {
-    m_output.write(m_text);
-    m_text.clear();
-  }
-
- private:
-  static constexpr std::size_t kPart = std::size_t{1} << 16;
-
-  Output& m_output;
-  std::string m_text;
-};
 
 /// How the search went.
 struct WorldsRun {

@@ -155,9 +155,7 @@ Inputs readInputs(const InputSettings& settings) {
   checkBetween(settings);
   ProgressLine line;
   const scene::ReadOptions options = readOptions(settings, line);
-  const bool areBoxes = std::all_of(settings.paths.begin(), settings.paths.end(),
-                                    [](const std::string& path) { return scene::isBoxArrayFile(path); });
-  if (areBoxes) {
+  if (areBoxArrays(settings)) {
     BoxInput input = readBoxArrays(settings, options);
     warnOf(settings, input.warnings);
     return input;
@@ -262,6 +260,11 @@ std::string boxMethod(std::optional<double> distance, const std::optional<Box>& 
 
 bool isOfSofa(const scene::Scene& scene) {
   return std::any_of(scene.inputs.begin(), scene.inputs.end(), scene::isSceneFile);
+}
+
+bool areBoxArrays(const InputSettings& settings) {
+  return std::all_of(settings.paths.begin(), settings.paths.end(),
+                     [](const std::string& path) { return scene::isBoxArrayFile(path); });
 }
 
 bool areScenes(const InputSettings& settings) {

@@ -79,7 +79,10 @@ void warnOfEmpty(const InputSettings& settings, const scene::EmptyBoxes& boxes, 
 /// Whether any of the inputs is a SOFA scene: its user knows SOFA's words.
 [[nodiscard]] bool isOfSofa(const scene::Scene& scene);
 
-/// Whether all of them are: their user asks what SOFA's broad phase finds.
+/// Whether all inputs are arrays of boxes.
+[[nodiscard]] bool areBoxArrays(const InputSettings& settings);
+
+/// Whether all of them are SOFA scenes: their user asks what SOFA's broad phase finds.
 [[nodiscard]] bool areScenes(const InputSettings& settings);
 
 /// How a scene's models are tested, in words: of a SOFA scene the method and its alarm distance, of meshes as boxes.

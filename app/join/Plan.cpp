@@ -29,9 +29,9 @@ struct PlanSettings {
 
 constexpr const char* kPlanExamples =
     R"(Reads the boxes. Cells, copies and room for boxes are exact; the number of
-pairs is estimated from a sample, and the time from 2 to 8 million boxes that are
-joined for it (fewer with less --memory) in a folder within --work, which is gone
-afterwards.
+pairs is estimated from a sample, and the time from as many boxes, 10,000 to 8 million,
+that are joined for it (fewer with less --memory) in a folder within --work, which is
+gone afterwards.
 
 With --ranks it says what 'allpairs-mpi join' would send over the network instead.
 

@@ -41,6 +41,7 @@
 #include "cli/Progress.h"
 #include "cli/Terminal.h"
 #include "cli/Text.h"
+#include "detect/Exact.h"
 #include "input/Inputs.h"
 #include "report/ReportFolder.h"
 #include "view/MakeViewScene.h"
@@ -53,6 +54,8 @@ namespace {
 
 /// A hundred light years, and no box of that many becomes infinite.
 constexpr double kMostMetres = 1e18;
+
+constexpr const char* kNoShapes = "--fail-on clash is of shapes, and none were tested; --exact tests them";
 
 struct ReportSettings {
   InputSettings input;
@@ -92,12 +95,11 @@ std::string dateText() {
   if (const char* fixed = std::getenv("SOURCE_DATE_EPOCH")) {
     constexpr long long kYear0 = -62167219200;
     constexpr long long kYear10000 = 253402300800;
-    char* end = nullptr;
-    const long long seconds = std::strtoll(fixed, &end, 10);
-    const bool isNumber = end != fixed && *end == '\0';
-    if (isNumber && (seconds < kYear0 || seconds >= kYear10000))
-      throw UsageError("SOURCE_DATE_EPOCH: '" + std::string(fixed) + "' is no moment of the years 0 to 9999");
-    if (isNumber) moment = static_cast<std::time_t>(seconds);
+    const auto seconds = numberOf<long long>(fixed);
+    if (!seconds || *seconds < kYear0 || *seconds >= kYear10000)
+      throw UsageError("SOURCE_DATE_EPOCH: '" + std::string(fixed) +
+                       "' is no moment of the years 0 to 9999, in seconds since 1970");
+    moment = static_cast<std::time_t>(*seconds);
   }
   return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(moment));
 }
@@ -269,6 +271,14 @@ void checkIsOneFrame(const std::vector<std::string>& paths) {
   throw UsageError("a report shows one frame, and the input has several: 'allpairs view' shows them");
 }
 
+/// Before the work, too, where the names of the inputs say that no shapes are tested.
+void checkFailOn(const ReportSettings& settings, const ViewRequest& request) {
+  if (settings.failOn != "clash") return;
+  requireExact();
+  const bool haveNoShapes = areScenes(settings.input) || areBoxArrays(settings.input);
+  if (request.shapes == ShapeTest::WhereShapesAre && haveNoShapes) throw UsageError(kNoShapes);
+}
+
 void runReport(const ReportSettings& settings) {
   if (settings.folder.empty()) throw UsageError("no -o DIR given: the folder to write to");
   if (settings.folder == "-") throw UsageError("-o: a report is a folder, for which '-' is no name");
@@ -283,9 +293,10 @@ void runReport(const ReportSettings& settings) {
   const std::string date = dateText();
   const std::optional<Earlier> earlier = readEarlier(settings.since);
   checkIsOneFrame(settings.input.paths);
-  const view::ViewScene scene = makeViewScene(settings.input, viewRequest(settings.view));
-  if (settings.failOn == "clash" && !scene.isExact)
-    throw UsageError("--fail-on clash is of shapes, and none were tested; --exact tests them");
+  const ViewRequest request = viewRequest(settings.view);
+  checkFailOn(settings, request);
+  const view::ViewScene scene = makeViewScene(settings.input, request);
+  if (settings.failOn == "clash" && !scene.isExact) throw UsageError(kNoShapes);
   const std::size_t found = writeReport(scene, settings, date, earlier);
   const std::filesystem::path page = std::filesystem::absolute(std::filesystem::path(settings.folder) / "index.html");
   if (settings.open && found == 0) openInBrowser(page);
@@ -315,7 +326,7 @@ void addReport(CLI::App& program) {
       ->add_option(
           "--since", settings->since,
           "Compare with an earlier report: its folder, or its clashes.csv; rows are new, persisting or resolved")
-      ->type_name("DIR");
+      ->type_name("LAST");
   addChoice(*command, "--fail-on", settings->failOn, {"pair", "clash", "new"})
       ->description("End with status 4 if there is a pair, a clash, or one that is new since --since");
   command->add_flag("--open", settings->open, "Open the report in the browser");

@@ -23,6 +23,7 @@
 #include "cli/Output.h"
 #include "cli/SignalCleanup.h"
 #include "cli/Text.h"
+#include "cli/TextParts.h"
 
 namespace allpairs::app {
 
@@ -125,7 +126,9 @@ void ReportFolder::write(const fs::path& name, std::string_view bytes) {
 void ReportFolder::write(const fs::path& name, const std::function<void(scene::ByteSink)>& writer) {
   try {
     Output output(m_stage / name);
-    writer([&output](std::string_view bytes) { output.write(bytes); });
+    TextParts parts(output);
+    writer([&parts](std::string_view bytes) { parts.write(bytes); });
+    parts.flush();
     m_names.push_back(name);
     noteNew(m_stage / name);
     output.commit();

@@ -10,6 +10,7 @@
 #include <array>
 #include <cerrno>
 #include <chrono>
+#include <csignal>
 #include <cstdio>
 #include <thread>
 
@@ -34,7 +35,15 @@ int start(const std::string& target, pid_t& child) {
   ::posix_spawn_file_actions_init(&actions);
   ::posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
   ::posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
-  const int problem = ::posix_spawnp(&child, kOpener, &actions, nullptr, words.data(), environ);
+  posix_spawnattr_t attributes{};
+  sigset_t signals{};
+  ::sigemptyset(&signals);
+  for (const int signal : {SIGPIPE, SIGXFSZ}) ::sigaddset(&signals, signal);  // which this program ignores
+  ::posix_spawnattr_init(&attributes);
+  ::posix_spawnattr_setsigdefault(&attributes, &signals);
+  ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
+  const int problem = ::posix_spawnp(&child, kOpener, &actions, &attributes, words.data(), environ);
+  ::posix_spawnattr_destroy(&attributes);
   ::posix_spawn_file_actions_destroy(&actions);
   return problem;
 }

@@ -128,6 +128,8 @@ TEST_F(Exact, WhatIsToBeRepairedIsRedAndWhatIsToBeNotedIsYellow) {
   EXPECT_THAT(text, HasSubstr("\n  \033[33mtouching "));
   EXPECT_THAT(text, HasSubstr("\n  apart "));
   EXPECT_THAT(detect({"--color", "always", "--clearance", "0.25"}).out, HasSubstr("\n  \033[33mclearance "));
+  expectFailure(runProgram({"detect", parts().string(), "--exact", "--color", "always", "--format", "csv"}), 2,
+                "--color is of the table of pairs, and there is none");
 }
 
 TEST_F(Exact, TheTableHasFiftyPairsAndTheNumberOfTheOthers) {

@@ -42,7 +42,7 @@ TEST(WrongUsage, IsOneLineAndStatusTwo) {
   expectFailure(runProgram({"detect", path, "--box", "0,0,0,1,1,1,2"}), kWrongUsage, "has 7 numbers");
   expectFailure(runProgram({"detect", path, "--box", "0 0 0 1 1 1"}), kWrongUsage,
                 "--box: '0 0 0 1 1 1' is not x0,y0,z0,x1,y1,z1, six numbers with commas between them");
-  expectFailure(runProgram({"detect", path, "--box", "0,0,0,1,0,1"}), kWrongUsage, "is not in y");
+  expectFailure(runProgram({"detect", path, "--box", "0,0,0,1,0,1"}), kWrongUsage, "is not on y");
   expectFailure(runProgram({"detect", path, "--box", "0,0,nan,1,0,1"}), kWrongUsage, "'nan'");
   expectFailure(runProgram({"info"}), kWrongUsage, "no INPUT given");
   expectFailure(runProgram({"completion"}), kWrongUsage, "no SHELL given");

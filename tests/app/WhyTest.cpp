@@ -174,6 +174,10 @@ TEST(Why, WantsNamesThatSayWhichModel) {
   expectFailure(runProgram({"detect", boxes, "--why", "a", "2", "--format", "csv"}), kWrongUsage,
                 "it takes no format csv");
   expectFailure(runProgram({"detect", boxes, "--why", "a", "2", "--verify"}), kWrongUsage, "it takes no --verify");
+  expectFailure(runProgram({"detect", boxes, "--why", "a", "2", "--threads", "2"}), kWrongUsage,
+                "it takes no --threads");
+  expectFailure(runProgram({"detect", boxes, "--why", "a", "2", "--strategy", "bvh"}), kWrongUsage,
+                "it takes no --strategy");
 }
 
 TEST(Why, AnswersForEachPipelineThatTakesBoth) {

@@ -137,7 +137,8 @@ TEST(ReportOfBodies, HasARowForAllPairsOfTheSameTwo) {
 
 TEST(Report, OfNoMomentIsRefused) {
   const TempFolder folder;
-  for (const char* moment : {"99999999999999", "99999999999999999999", "253402300800", "-62167219201"})
+  for (const char* moment :
+       {"99999999999999", "99999999999999999999", "253402300800", "-62167219201", "abc", "", "1e9"})
     expectFailure(runScript("SOURCE_DATE_EPOCH=" + std::string(moment) + " \"$0\" report '" + kDemoScene + "' -o '" +
                             folder.path().string() + "/o'"),
                   2, "SOURCE_DATE_EPOCH: '" + std::string(moment) + "' is no moment of the years 0 to 9999");
@@ -365,6 +366,9 @@ TEST(Report, OfASofaSceneIsOfBoxesAndSaysWhichOfThemOnlyLieWithinTheDistance) {
   EXPECT_NE(page.find("do not overlap, but lie within the distance: they are 0.25 apart on x."), std::string::npos);
   expectFailure(runProgram({"report", scene, "-o", folder.path() / "out", "--fail-on", "clash"}), 2,
                 "none were tested; --exact tests them");
+  for (const char* missing : {"missing.csv", "missing.scn"})  // before anything is read
+    expectFailure(runProgram({"report", missing, "-o", folder.path() / "out", "--fail-on", "clash"}), 2,
+                  "none were tested; --exact tests them");
 }
 
 TEST(Report, HasTheNearestFirstOfBoxesThatOnlyLieWithinADistance) {

@@ -271,10 +271,12 @@ TEST(Serve, RefusesAPortThatAnotherProgramServes) {
                 "cannot listen at 127.0.0.1 on port " + port);
 }
 
-/// A folder with an xdg-open that notes what it is asked for, and ends with `status`.
+/// A folder with an xdg-open that notes what it is asked for, and which signals it ignores, and ends with `status`.
 std::string fakeOpener(const TempFolder& folder, int status) {
-  const fs::path path = folder.write(
-      "xdg-open", "#!/bin/sh\nprintf '%s\\n' \"$@\" > \"${0%/*}/asked\"\nexit " + std::to_string(status) + "\n");
+  const fs::path path = folder.write("xdg-open", R"(#!/bin/sh
+printf '%s\n' "$@" > "${0%/*}/asked"
+sed -n 's/SigIgn:[[:space:]]*//p' "/proc/$$/status" > "${0%/*}/ignored"
+exit )" + std::to_string(status) + '\n');
   fs::permissions(path, fs::perms::owner_all);
   return folder.path();
 }
@@ -292,6 +294,8 @@ TEST(Open, AsksTheDesktopForTheFileThatWasWritten) {
   EXPECT_EQ(run.out, "");
   EXPECT_EQ(readBytes(folder.path() / "asked"), page + "\n");
   EXPECT_TRUE(fs::exists(page));
+  const std::uint64_t ignored = std::stoull(readBytes(folder.path() / "ignored"), nullptr, 16);
+  for (const int signal : {SIGPIPE, SIGXFSZ}) EXPECT_EQ(ignored >> (signal - 1) & 1U, 0U) << signal;
 }
 
 TEST(Open, WithoutANameWritesAFileOfItsOwnThatOnlyTheUserMayRead) {
