@@ -44,7 +44,7 @@ def overlaps(
         The corners of n boxes. Or ``lower`` alone, of shape (n, 6): a row is minx miny minz maxx maxy maxz. Any
         strides are allowed. Arrays are copied only if one is float32 and the other float64, or for other types. Anything
         with ``__array__``, ``__dlpack__`` or the buffer protocol in the processor's memory counts as an array.
-        Integers are converted to float64. Boxes in the plane have shape (n, 2), or alone (n, 4).
+        Integers are converted to float64; those beyond 2**53 are refused. Boxes in the plane have shape (n, 2), or alone (n, 4).
     distance : float
         Boxes that are at most this far apart on every axis are a pair. A negative distance requires that much overlap.
     margin : float or array_like, shape (n,)
