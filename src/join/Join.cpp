@@ -125,6 +125,22 @@ void checkOptions(std::span<const fs::path> inputs, const JoinOptions& options) 
   }
 }
 
+/// The path without links, of what is there or not.
+fs::path canonicalOf(const fs::path& path) {
+  const fs::path target = fs::absolute(scene::resolvedTarget(path));
+  std::error_code problem;
+  const fs::path canonical = fs::weakly_canonical(target.has_filename() ? target : target.parent_path(), problem);
+  return problem ? target.lexically_normal() : canonical;
+}
+
+/// The work folder goes when the result has its name, and what has the name of one of its files with it.
+void checkIsNotIn(const fs::path& work, const fs::path& output) {
+  const fs::path folder = canonicalOf(work);
+  const fs::path result = canonicalOf(output);
+  if (std::mismatch(folder.begin(), folder.end(), result.begin(), result.end()).first != folder.end()) return;
+  throw FileError(output, "is the folder of the join's own files, which is removed in the end, or lies in it");
+}
+
 /// What a box is where it travels: categories and masks share a word.
 std::uint64_t sentSizeOf(const RecordType& type) {
   const bool hasBits = type.hasCategories || type.hasMasks;
@@ -135,6 +151,7 @@ std::uint64_t sentSizeOf(const RecordType& type) {
 JoinSummary run(std::span<const fs::path> inputs, const ResultSink* sink, const JoinOptions& options) {
   checkOptions(inputs, options);
   if (options.work.empty()) throw InvalidArgument("a join needs a folder to work in");
+  if (!options.output.empty()) checkIsNotIn(options.work, options.output);
   BoxInput input(inputs, options);
   const Budget budget = budgetOf(options, input);
   return DiskJoin(input, options, budget, sink == nullptr).run(sink);

@@ -273,6 +273,24 @@ TEST_F(JoinCommand, AWorkFolderThatCannotBeMadeIsNamedAsItWasGiven) {
   expectFailure(runProgram({"join", few, "--count", "--work", few}), kBadInput, few + ": is not a folder");
 }
 
+/// Which is removed when the result is complete.
+TEST_F(JoinCommand, AResultInTheWorkFolderIsRefused) {
+  fs::create_directory(in("w"));
+  const std::string problem = ": is the folder of the join's own files, which is removed in the end, or lies in it\n";
+  for (const std::string& output : {in("w/pairs"), in("new"), in("new/x.npy")}) {
+    const std::string work = output == in("w/pairs") ? in("w") : in("new");
+    for (const char* option : {"--threads=1", "--resume"}) {
+      const ProgramRun run = runProgram({"join", few, "-o", output, "--work", work, option});
+      EXPECT_EQ(run.status, kBadInput) << output;
+      EXPECT_EQ(run.out, "");
+    }
+  }
+  expectFailure(runProgram({"join", few, "-o", in("w/pairs"), "--work", in("w")}), kBadInput, in("w/pairs") + problem);
+  expectFailure(runProgram({"join", few, "-o", in("new"), "--work", in("new")}), kBadInput, in("new") + problem);
+  EXPECT_TRUE(fs::is_empty(in("w")));
+  EXPECT_FALSE(fs::exists(in("new")));
+}
+
 TEST_F(JoinCommand, AWorkFolderThatNobodyNamedMayBeAnotherOne) {
   const std::string hint = "cannot be made: No such file or directory; --work DIR works in another folder\n";
   expectFailure(runScript("exec 9< '" + few + "'; exec \"$0\" join /proc/self/fd/9 --count"), kBadInput, hint);

@@ -64,6 +64,37 @@ TEST(Join, ReplacesAFileAndNothingElse) {
   EXPECT_TRUE(fs::is_character_file("/dev/null"));
 }
 
+/// With the names of the join's own files it would be removed with them.
+TEST(Join, AResultInTheWorkFolderIsRefused) {
+  namespace fs = std::filesystem;
+  const JoinCase with(toDouble(randomBoxes(200, 11)));
+  join::JoinOptions options = with.options();
+  const fs::path link = with.folder.path() / "link";
+  fs::create_directory_symlink("work", link);
+  const fs::path toPairs = with.folder.path() / "to-pairs";
+  fs::create_symlink("work/pairs", toPairs);
+  for (const bool isThere : {false, true}) {
+    if (isThere) fs::create_directory(options.work);
+    for (const fs::path& output :
+         {options.work, options.work / "pairs", link / "pairs", options.work / "." / "result.npy", toPairs}) {
+      if (!isThere && output == link / "pairs") continue;  // a link to nothing is no folder
+      EXPECT_THROW(joinFiles(with.paths, output, options), FileError) << output;
+      join::JoinOptions ofSink = options;
+      ofSink.output = output;
+      EXPECT_THROW(joinFiles(
+                       with.paths, [](std::string_view) {}, ofSink),
+                   FileError)
+          << output;
+      EXPECT_EQ(fs::exists(options.work), isThere) << output;
+    }
+  }
+  options.work = link / "";
+  EXPECT_THROW(joinFiles(with.paths, with.folder.path() / "work" / "pairs", options), FileError);
+  options.work = with.folder.path() / "pairs.work";
+  joinFiles(with.paths, with.folder.path() / "pairs", options);
+  EXPECT_TRUE(fs::exists(with.folder.path() / "pairs"));
+}
+
 TEST(Join, NoInputIsReplaced) {
   const JoinCase with(toDouble(randomBoxes(200, 11)));
   const std::string before = bytesOfFile(with.paths[0]);

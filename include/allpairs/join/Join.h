@@ -73,7 +73,8 @@ struct JoinOptions {
   scene::BoxValueFiles values{};
   scene::BoxValueFiles secondValues{};
 
-  /// The file that the sink writes, if it writes one: its disk is asked for room too.
+  /// The file that the sink writes, if it writes one: its disk is asked for room too. One that is the work folder, or
+  /// lies in it, throws FileError before anything is read.
   std::filesystem::path output{};
 };
 
@@ -118,9 +119,9 @@ JoinSummary joinFiles(Span<const std::filesystem::path> inputs, ResultSink sink,
 /// The same into a file, which appears when it is complete, beside which it is written; options.commit and
 /// options.output are not used. Killed meanwhile it leaves a file of that name, a number and ".part", which a join that
 /// is resumed removes. The default work folder is `output` with ".work" behind it. Where `output` is a link its target
-/// is replaced; permissions stay. One that is there and is no file, is one of the inputs, or cannot be written throws
-/// FileError before anything is read. The result is on the disk before it gets its name, and has it before the work
-/// folder goes.
+/// is replaced; permissions stay. One that is there and is no file, is one of the inputs, is the work folder or lies in
+/// it, or cannot be written throws FileError before anything is read. The result is on the disk before it gets its
+/// name, and has it before the work folder goes.
 JoinSummary joinFiles(Span<const std::filesystem::path> inputs, const std::filesystem::path& output,
                       const JoinOptions& options = {});
 
