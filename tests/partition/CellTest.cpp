@@ -38,6 +38,15 @@ TEST(Cell, TheOutermostHoldInfinity) {
   EXPECT_FALSE((Cell{{-kInfinity, 0, 0}, {1, 1, 1}}).holds({kInfinity, 0, 0}));
 }
 
+TEST(Cell, OneWithoutExtentHoldsNothingAtInfinityEither) {
+  const Box atInfinity{{kInfinity, kInfinity, kInfinity}, {kInfinity, kInfinity, kInfinity}};
+  const Cell cell{atInfinity.min, atInfinity.max};
+  EXPECT_FALSE(cell.holds(atInfinity.min));
+  const std::vector<Box> boxes(2, atInfinity);
+  CellSearch search;
+  EXPECT_TRUE(search.find(boxes, cell).empty());
+}
+
 TEST(Cell, APairBelongsToTheGreaterMinima) { EXPECT_EQ(pairPoint(cube(0, 3, -2), cube(1, 2, -5)), (Point{1, 3, -2})); }
 
 TEST(Cell, ReachIsWidenedAboveOnlyAndByTheGreatestMargin) {

@@ -44,7 +44,8 @@ struct IdPair {
 };
 
 /// A part of space: the points p with min[a] <= p[a] < max[a] on each axis. A max of infinity includes infinity, so
-/// that cells which tile space hold every point once. The default is all of space.
+/// that cells which tile space hold every point once; a min that is not below its max holds none, at infinity too. The
+/// default is all of space.
 struct Cell {
   Point min{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
             -std::numeric_limits<double>::infinity()};
@@ -54,7 +55,7 @@ struct Cell {
   [[nodiscard]] constexpr bool holds(const Point& point) const noexcept {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const bool isBelow = point[axis] < max[axis] || max[axis] == std::numeric_limits<double>::infinity();
-      if (!(min[axis] <= point[axis]) || !isBelow) return false;
+      if (!(min[axis] <= point[axis]) || !isBelow || min[axis] >= max[axis]) return false;
     }
     return true;
   }
