@@ -30,7 +30,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMostRanges = 4096;  // of first boxes: pairs are put in order some ranges at a time
 constexpr const char* kLock = "allpairs-join.lock";
 constexpr double kSaveInterval = 0.5;  // seconds of searching that a kill may cost
 
@@ -70,6 +69,13 @@ void requireRoomIn(const fs::path& folder, std::uint64_t bytes, const std::strin
   if (unknown || space.capacity == 0 || bytes <= space.available) return;  // some do not say how large they are
   throw FileError(folder, "its disk has " + megabytes(space.available) + problem,
                   std::make_error_code(std::errc::no_space_on_device));
+}
+
+/// The scratch files of ranges that were divided, and divided again: a join that was killed leaves some of them.
+constexpr std::string_view kDivided = "divided";
+
+bool isOfDivided(std::string_view name) {
+  return name.substr(0, kDivided.size()) == kDivided && name.find_first_not_of('-', kDivided.size()) == name.npos;
 }
 
 }  // namespace
@@ -121,8 +127,8 @@ void DiskJoin::removeParts() {
   m_runs.file = {};
   std::error_code ignored;
   for (const char* name : {"boxes", "pairs"}) fs::remove(file(name), ignored);
-  std::string divided = "divided";  // a join that was killed leaves them, one for each time that a range was divided
-  for (; fs::remove(file(divided.c_str()), ignored); divided += '-') {
+  for (const std::string& name : scene::folderNames(m_options.work, ignored)) {
+    if (isOfDivided(name)) fs::remove(file(name.c_str()), ignored);
   }
 }
 
@@ -232,13 +238,15 @@ void DiskJoin::dropDamagedCells() {
 void DiskJoin::requireRoom(const Division& division) const {
   const std::uint64_t boxes = division.records() * recordType().size();
   const std::uint64_t pairs = m_manifest.isCount ? 0 : division.pairBytes(pairSize());
-  const std::string found =
+  const std::uint64_t scratch = m_manifest.isCount ? 0 : division.scratchBytes(pairSize(), m_budget.mergeBytes);
+  std::string found =
       " left, and this join needs " + megabytes(boxes) + " for boxes and about " + megabytes(pairs) + " for pairs";
+  if (scratch != 0) found += ", " + megabytes(scratch) + " to put them in order";
   const std::optional<fs::path> output = folderOf(m_options.output);
   if (output && isOnDiskOf(*output, m_options.work)) {
-    requireRoomIn(m_options.work, boxes + 2 * pairs, found + ", and as much for the result");
+    requireRoomIn(m_options.work, boxes + 2 * pairs + scratch, found + ", and as much for the result");
   } else {
-    requireRoomIn(m_options.work, boxes + pairs, found);
+    requireRoomIn(m_options.work, boxes + pairs + scratch, found);
     if (output) requireRoomIn(*output, pairs, " left, and the result needs about " + megabytes(pairs));
   }
 }
@@ -296,11 +304,11 @@ void DiskJoin::searchCells() {
   std::atomic<std::size_t> next = 0;
   std::atomic<bool> hasFailed = false;
   const auto work = [&](std::size_t) {
-    CellJoin join(*m_spill, m_cells, m_budget.cellBoxes,
-                  {.order = Order::Unordered, .distance = m_options.distance, .stop = m_options.stop});
-    std::optional<RunWriter<Id>> writer;
-    if (!m_manifest.isCount) writer.emplace(m_ranges, m_budget.bufferPairs, m_runs);
     try {
+      CellJoin join(*m_spill, m_cells, m_budget.cellBoxes,
+                    {.order = Order::Unordered, .distance = m_options.distance, .stop = m_options.stop});
+      std::optional<RunWriter<Id>> writer;
+      if (!m_manifest.isCount) writer.emplace(m_ranges, m_budget.bufferPairs, m_runs);
       for (std::size_t i = next++; i < left.size() && !hasFailed; i = next++) {
         searchCell(left[i], join, writer ? &*writer : nullptr);
       }
@@ -314,7 +322,10 @@ void DiskJoin::searchCells() {
   try {
     executor.run(std::min(m_budget.workers, left.size()), work);
   } catch (...) {
-    m_manifest.write(file("manifest"));  // cells that are complete are not searched again
+    try {
+      m_manifest.write(file("manifest"));  // cells that are complete are not searched again
+    } catch (...) {                        // as on a disk that is full: what was saved before stays
+    }
     throw;
   }
   m_manifest.write(file("manifest"));
@@ -358,7 +369,7 @@ void DiskJoin::writePairs(ResultSink sink) {
   sink(headerFor<Id>(pairs));
   std::uint64_t written = 0;
   const std::uint64_t seconds = m_input.size(m_input.sets() - 1);
-  PairMerge<Id> merge(m_ranges, seconds, m_budget.mergeBytes, m_runs.file, file("divided"), m_options.stop);
+  PairMerge<Id> merge(m_ranges, seconds, m_budget.mergeBytes, m_runs.file, file(kDivided.data()), m_options.stop);
   merge.merge(runs, [&](std::span<const StoredPair<Id>> batch) {
     sink({reinterpret_cast<const char*>(batch.data()), batch.size_bytes()});
     written += batch.size();

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <utility>
 
+#include "PairRuns.h"
 #include "allpairs/Overlaps.h"
 #include "allpairs/StopFlag.h"
 
@@ -32,6 +33,11 @@ std::size_t cellsFor(std::uint64_t boxes, const Budget& budget) {
   return std::max(forMemory, forWorkers);
 }
 
+/// Whether the cells are those of a box in most of space, or it is a wide one.
+bool isLarge(const Division& division, std::span<const std::uint32_t> cells) {
+  return cells.front() == division.cells.size() || (cells.size() > 1 && cells.size() > division.cells.size() / 2);
+}
+
 }  // namespace
 
 std::uint64_t Division::records() const { return std::accumulate(counts.begin(), counts.end(), std::uint64_t{0}); }
@@ -42,6 +48,14 @@ std::uint64_t Division::countOf(std::size_t cell) const {
   std::uint64_t count = 0;
   for (std::size_t part = cell; part < counts.size(); part += cells.size() + 1) count += counts[part];
   return count;
+}
+
+std::uint64_t Division::scratchBytes(std::size_t pairSize, std::size_t memory) const {
+  if (large == 0) return 0;
+  const std::uint64_t ofBox = std::min(pairs / large, std::max(sent[0], sent[1]));
+  const std::uint64_t ofRange = ofBox * largeInRange;
+  const std::uint64_t fit = memory / 4 * 3 / (pairSize + pairSize / 2);
+  return ((ofRange > fit ? ofRange : 0) + (ofBox > fit ? ofBox : 0)) * pairSize;
 }
 
 Divider::Divider(BoxInput& input, const JoinOptions& options, const Budget& budget)
@@ -101,12 +115,15 @@ void Divider::count(Division& division) {
   division.empty = {};
   for (BoxSample& sample : m_evenSamples) sample = {.type = m_input.recordType()};
   m_evenNumbers = {};
+  const KeyRanges ranges = KeyRanges::of(0, m_input.size(0), false, kMostRanges);
+  std::vector<std::uint64_t> large(ranges.count());
   m_input.forEachBlock([&](const BoxBlock& block) {
     checkStop(m_options.stop);
     const std::uint64_t step = stepOf(block.set);
     division.empty[block.set].look(block.boxes, block.begin);
     visitCells(division, block, m_options, [&](std::size_t i, std::span<const std::uint32_t> cells) {
       ++division.sent[block.set];
+      if (block.set == 0 && isLarge(division, cells)) ++large[ranges.rangeOf(block.begin + i, 0)];
       for (const std::uint32_t cell : cells) ++division.counts[partOf(division.cells, block.set, cell)];
       if ((block.begin + i) % step != 0) return;
       m_evenSamples[block.set].add(block, i);
@@ -114,6 +131,8 @@ void Divider::count(Division& division) {
     });
     if (m_options.progress) m_options.progress({"counting", block.before + block.boxes.size(), m_input.size()});
   });
+  division.large = std::accumulate(large.begin(), large.end(), std::uint64_t{0});
+  division.largeInRange = large.empty() ? 0 : *std::max_element(large.begin(), large.end());
 }
 
 /// Returns whether anything was cut.

@@ -28,7 +28,9 @@ struct Division {
   std::array<double, 2> partnerMargins{};  ///< The greatest margin of what a box of each set may be paired with.
   std::array<std::uint64_t, 2> sent{};     ///< Boxes of each set that go anywhere: none that is empty or left out.
   std::array<scene::EmptyBoxes, 2> empty{};
-  std::uint64_t pairs = 0;  ///< Estimated.
+  std::uint64_t pairs = 0;         ///< Estimated.
+  std::uint64_t large = 0;         ///< Boxes of the first set in more than half of the cells, and in more than one.
+  std::uint64_t largeInRange = 0;  ///< How many of them are in the range of numbers that has the most.
 
   /// Boxes and their copies: what is written.
   [[nodiscard]] std::uint64_t records() const;
@@ -39,6 +41,10 @@ struct Division {
     constexpr std::uint64_t kMost = std::uint64_t{1} << 60;
     return pairs < kMost / pairSize ? pairs * pairSize : kMost;
   }
+
+  /// What the pairs of a range of first boxes take once more where they do not fit in `memory` to be put in order,
+  /// estimated: large boxes have the most. Those of a box that do not fit by themselves take it twice.
+  [[nodiscard]] std::uint64_t scratchBytes(std::size_t pairSize, std::size_t memory) const;
 
   /// The boxes of all sets in a cell, or those that are wide.
   [[nodiscard]] std::uint64_t countOf(std::size_t cell) const;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <numeric>
 #include <system_error>
 #include <utility>
@@ -13,12 +14,27 @@ namespace allpairs::join {
 namespace {
 
 constexpr std::size_t kBatch = std::size_t{1} << 16;                // pairs between two looks for a stop
-constexpr std::size_t kParts = std::size_t{1} << 8;                 // of a range that is divided
 constexpr const char* kOtherRanges = "is damaged: a run's ranges";  // from one reading to the next, also
 
 template <class T>
 void release(std::vector<T>& values) {
   std::vector<T>().swap(values);
+}
+
+/// Of a range that is divided: so many that one key seldom shares its part, and that what says where they begin takes
+/// little of the memory.
+std::size_t partsFor(std::size_t memory) {
+  return std::clamp<std::size_t>(memory / 2048, std::size_t{1} << 8, std::size_t{1} << 16);
+}
+
+/// Looks for a stop now and then: all values may be the partners of one box.
+template <class Values, class Less>
+void sortUntil(const StopFlag* stop, const Values& values, const Less& less) {
+  std::size_t compared = 0;
+  std::sort(values.begin(), values.end(), [&](const auto& a, const auto& b) {
+    if (++compared % kBatch == 0) checkStop(stop);
+    return less(a, b);
+  });
 }
 
 }  // namespace
@@ -105,7 +121,6 @@ bool PairMerge<Id>::fits(const Group& group) const {
 
 template <class Id>
 void PairMerge<Id>::mergeGroup(std::span<const Run> runs, const Group& group, Receiver receive) {
-  m_pairs.resize(static_cast<std::size_t>(group.pairs));
   readGroup(runs, group);
   if (m_ranges.isBySecond) {
     giveOneRow(receive);
@@ -129,14 +144,19 @@ void PairMerge<Id>::forEachPart(std::span<const Run> runs, std::size_t begin, st
 
 template <class Id>
 void PairMerge<Id>::readGroup(std::span<const Run> runs, const Group& group) {
-  std::size_t filled = 0;
+  m_pairs.clear();
   forEachPart(runs, group.begin, group.end, [&](std::uint64_t position, std::uint64_t count) {
-    checkStop(m_stop);
-    if (count > m_pairs.size() - filled) throw FileError(m_file.path(), kOtherRanges);
-    m_file.read(position, m_pairs.data() + filled, static_cast<std::size_t>(count) * sizeof(StoredPair<Id>));
-    filled += static_cast<std::size_t>(count);
+    if (count > group.pairs - m_pairs.size()) throw FileError(m_file.path(), kOtherRanges);
+    while (count > 0) {
+      checkStop(m_stop);
+      const auto part = static_cast<std::size_t>(std::min<std::uint64_t>(count, kBatch));
+      m_pairs.resize(m_pairs.size() + part);
+      m_file.read(position, m_pairs.data() + (m_pairs.size() - part), part * sizeof(StoredPair<Id>));
+      position += part * sizeof(StoredPair<Id>);
+      count -= part;
+    }
   });
-  if (filled != m_pairs.size()) throw FileError(m_file.path(), kOtherRanges);
+  if (m_pairs.size() != group.pairs) throw FileError(m_file.path(), kOtherRanges);
 }
 
 /// Some at a time, so that it soon ends where it is to stop.
@@ -154,14 +174,15 @@ template <class Id>
 void PairMerge<Id>::giveRows(std::uint64_t firstKey, std::uint64_t endKey, Receiver receive) {
   const auto rows = static_cast<std::size_t>(endKey - firstKey);
   m_begins.assign(rows + 1, 0);
+  m_seconds.clear();
   forEachBatch([&](std::span<const StoredPair<Id>> pairs) {
+    m_seconds.resize(m_seconds.size() + pairs.size());
     for (const auto& pair : pairs) {
       if (pair.first < firstKey || pair.first >= endKey) throw FileError(m_file.path(), kForeignBox);
       ++m_begins[static_cast<std::size_t>(pair.first - firstKey)];
     }
   });
   std::exclusive_scan(m_begins.begin(), m_begins.end(), m_begins.begin(), std::uint64_t{0});
-  m_seconds.resize(m_pairs.size());
   forEachBatch([&](std::span<const StoredPair<Id>> pairs) {
     for (const auto& pair : pairs) m_seconds[m_begins[static_cast<std::size_t>(pair.first - firstKey)]++] = pair.second;
   });
@@ -173,8 +194,7 @@ void PairMerge<Id>::giveRows(std::uint64_t firstKey, std::uint64_t endKey, Recei
       next = begin + kBatch;
     }
     const auto end = static_cast<std::size_t>(m_begins[row]);
-    std::sort(m_seconds.begin() + static_cast<std::ptrdiff_t>(begin),
-              m_seconds.begin() + static_cast<std::ptrdiff_t>(end));
+    sortUntil(m_stop, std::span(m_seconds).subspan(begin, end - begin), std::less<>());
     for (std::size_t i = begin; i < end; ++i) m_pairs[i] = {static_cast<Id>(firstKey + row), m_seconds[i]};
     begin = end;
   }
@@ -184,7 +204,7 @@ void PairMerge<Id>::giveRows(std::uint64_t firstKey, std::uint64_t endKey, Recei
 /// All pairs have the same first.
 template <class Id>
 void PairMerge<Id>::giveOneRow(Receiver receive) {
-  std::sort(m_pairs.begin(), m_pairs.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+  sortUntil(m_stop, std::span(m_pairs), [](const auto& a, const auto& b) { return a.second < b.second; });
   forEachBatch(receive);
 }
 
@@ -193,8 +213,9 @@ void PairMerge<Id>::divideRange(std::span<const Run> runs, std::size_t range, Re
   const std::uint64_t begin = m_ranges.beginOf(range);
   const std::uint64_t end = m_ranges.beginOf(range + 1);
   const bool isOneKey = end - begin == 1;
-  const KeyRanges parts = isOneKey && !m_ranges.isBySecond ? KeyRanges::of(0, m_boxes, true, kParts)
-                                                           : KeyRanges::of(begin, end, m_ranges.isBySecond, kParts);
+  const std::size_t most = partsFor(m_memory);
+  const KeyRanges parts = isOneKey && !m_ranges.isBySecond ? KeyRanges::of(0, m_boxes, true, most)
+                                                           : KeyRanges::of(begin, end, m_ranges.isBySecond, most);
   release(m_pairs);
   release(m_seconds);
   release(m_begins);

@@ -20,8 +20,8 @@ class PairMerge {
   using Receiver = FunctionRef<void(std::span<const StoredPair<Id>>)>;
 
   /// `file` has the runs; `boxes` is one more than the greatest number of a second box. A range that is too large by
-  /// itself is divided again, by way of `scratch`. `stop` ends a merge, if it is given: soon, but
-  /// for the partners of one box, which are sorted together.
+  /// itself is divided again, by way of `scratch`, a file of its size, and what is too large in that by way of one
+  /// more. `stop` soon ends a merge, if it is given.
   PairMerge(const KeyRanges& ranges, std::uint64_t boxes, std::size_t memory, const WorkFile& file,
             std::filesystem::path scratch, const StopFlag* stop = nullptr);
 

@@ -25,6 +25,8 @@ struct StoredPair {
 /// What is wrong with a file in which there is another box than those of the join: the disk gave back other bytes.
 inline constexpr const char* kForeignBox = "is damaged: it names a box that is not of this join";
 
+inline constexpr std::size_t kMostRanges = 4096;  ///< Of first boxes: pairs are put in order some at a time.
+
 /// Which range of keys a pair is put into. The key is the first box, or where a range has only one of them, the second.
 struct KeyRanges {
   std::uint64_t begin = 0;  ///< The least key.

@@ -2,11 +2,14 @@
 // Joins in so little memory that each way of cutting, dividing and merging is taken, against the double loop.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <random>
 #include <string>
 #include <vector>
 
+#include "Divider.h"
 #include "JoinCase.h"
 #include "PairMerge.h"
 #include "allpairs/Error.h"
@@ -202,6 +205,52 @@ TEST(DiskJoin, ARangeOfManyPairsIsDividedWhole) {
     for (const auto& pair : batch) found.push_back({pair.first, pair.second});
   });
   EXPECT_TRUE(found == expected);
+}
+
+/// Each is a copy of what is divided: the disk has to have room for all of them.
+TEST(DiskJoin, ARangeOfManyKeysAndOneWithMostOfThePairsIsDividedTwice) {
+  constexpr std::uint32_t kKeys = 1'000;
+  constexpr std::uint32_t kRow = 400'000;
+  const TempFolder folder;
+  const join::KeyRanges ranges = join::KeyRanges::of(0, kKeys, false, 1);
+  join::RunFile file{join::WorkFile(folder.path() / "pairs", join::WorkFile::Mode::Create)};
+  join::RunWriter<std::uint32_t> writer(ranges, 100'000, file);
+  std::vector<Pair> expected;
+  for (std::uint32_t key = 0; key < kKeys; ++key) {
+    const std::uint32_t pairs = key == 512 ? kRow : 5;
+    for (std::uint32_t i = 0; i < pairs; ++i) expected.push_back({key, 2 * i});
+  }
+  for (auto pair = expected.rbegin(); pair != expected.rend(); ++pair) writer.add(pair->first, pair->second);
+  std::vector<Pair> found;
+  std::uintmax_t most = 0;
+  join::PairMerge<std::uint32_t> merge(ranges, 2 * kRow, 4'000'000, file.file, folder.path() / "divided");
+  merge.merge(writer.finish(), [&](std::span<const join::StoredPair<std::uint32_t>> batch) {
+    for (const auto& pair : batch) found.push_back({pair.first, pair.second});
+    std::uintmax_t room = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(folder.path())) room += entry.file_size();
+    most = std::max(most, room);
+  });
+  EXPECT_TRUE(found == expected);
+  constexpr std::uintmax_t kPairs = sizeof(Pair) * (kRow + 5 * (kKeys - 1));
+  EXPECT_LT(most, kPairs * 32 / 10) << "pairs, a copy of the range, and one of the row";
+}
+
+TEST(DiskJoin, RoomToPutPairsInOrderIsThatOfTheRangeWithTheLargestBoxes) {
+  std::vector<Box> boxes = uniform(3'000);
+  const auto scratchOf = [](const std::vector<Box>& all, std::size_t memory) {
+    const JoinCase with(all);
+    const join::JoinOptions options = with.options();
+    join::Budget budget = tinyBudget();
+    budget.sampleBoxes = all.size();
+    join::BoxInput input(with.paths, options);
+    return join::Divider(input, options, budget).divide().scratchBytes(sizeof(Pair), memory);
+  };
+  EXPECT_EQ(scratchOf(boxes, 1'000), 0U) << "many small ranges";
+  boxes[0] = cube(-1, -1, -1, 30);
+  const std::uint64_t row = sizeof(Pair) * (boxes.size() - 1);
+  EXPECT_GE(scratchOf(boxes, 20'000), 2 * row) << "of the range, and of the row";
+  EXPECT_LE(scratchOf(boxes, 20'000), 2 * row + 100);
+  EXPECT_EQ(scratchOf(boxes, 100'000), 0U) << "it fits";
 }
 
 /// The disk may give back other bytes than were written.

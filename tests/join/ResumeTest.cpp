@@ -103,10 +103,27 @@ TEST(Resume, CellsThatAreCompleteAreNotSearchedAgain) {
 
 TEST(Resume, WhatAKillLeavesOfRangesThatWereDividedIsRemoved) {
   JoinCase with(someBoxes());
-  stoppedWhileWriting(with);
-  for (const char* name : {"divided", "divided-", "divided--"}) std::ofstream(with.options().work / name) << "pairs";
+  for (const std::vector<const char*>& names : {std::vector{"divided", "divided-", "divided--"},
+                                                std::vector{"divided-", "divided---"}}) {  // with more memory, others
+    stoppedWhileWriting(with);
+    for (const char* name : names) std::ofstream(with.options().work / name) << "pairs";
+    EXPECT_TRUE(with.run(resuming(with)) == expectedBytes(someBoxes()));
+    EXPECT_FALSE(fs::exists(with.options().work)) << names.front();
+  }
+}
+
+/// Where the manifest cannot be written either, as on a disk that is full.
+TEST(Resume, AnErrorIsTheOneThatEndedTheSearch) {
+  JoinCase with(someBoxes());
+  join::JoinOptions options = with.options();
+  options.progress = [&options](const join::JoinProgress& progress) {
+    if (progress.step != "searching" || progress.done != 3) return;
+    fs::create_directory(options.work / "manifest.next");
+    throw std::logic_error("enough");
+  };
+  EXPECT_THROW((void)with.run(options), std::logic_error);
+  fs::remove(options.work / "manifest.next");
   EXPECT_TRUE(with.run(resuming(with)) == expectedBytes(someBoxes()));
-  EXPECT_FALSE(fs::exists(with.options().work));
 }
 
 TEST(Resume, TheSameFilesMayBeNamedOtherwise) {
