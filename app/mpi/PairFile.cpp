@@ -70,7 +70,6 @@ void PairFile::create() {
     m_part.clear();
     fail("created", problem);
   }
-  if (::fchmod(m_descriptor, modeOfTarget(m_target)) != 0) fail("created", errno);
 }
 
 /// The other ranks open what rank 0 has made.
@@ -102,6 +101,8 @@ std::uint64_t PairFile::write(std::span<const partition::IdPair> pairs, std::uin
     } else {
       writeAs<std::uint64_t>(header.size() + 16 * begin, pairs);
     }
+    // Not before all ranks have opened it for writing, which the target's mode may forbid.
+    if (m_rank == 0 && ::fchmod(m_descriptor, modeOfTarget(m_target)) != 0) fail("replaced", errno);
     if (::fsync(m_descriptor) != 0) fail("written", errno);
     const int descriptor = m_descriptor;
     m_descriptor = -1;

@@ -105,6 +105,22 @@ def test_dask_has_the_same_pairs(scene, workers):
 
 
 @needs_mpi
+def test_a_result_that_is_read_only_is_replaced_by_any_number_of_ranks(tmp_path):
+    np.save(tmp_path / "boxes.npy", boxes_of("two"))
+    pairs = tmp_path / "pairs.npy"
+    as_a_user = []
+    if os.geteuid() == 0:
+        as_a_user = [shutil.which("setpriv") or pytest.skip("root may write it"), "--bounding-set", "-dac_override"]
+    for ranks in (1, 2):
+        pairs.write_bytes(b"before")
+        pairs.chmod(0o440)
+        run(*as_a_user, MPIRUN, "-n", ranks, MPI_PROGRAM, "join", tmp_path / "boxes.npy", "-o", pairs)
+        assert np.load(pairs).shape[1] == 2
+        assert pairs.stat().st_mode & 0o777 == 0o440
+        assert len(list(tmp_path.iterdir())) == 2
+
+
+@needs_mpi
 def test_distance_count_and_several_files(tmp_path):
     boxes = boxes_of("clusters")[:5000]
     np.save(tmp_path / "all.npy", boxes)
