@@ -2,6 +2,7 @@
 #include "LoadedScene.h"
 
 #include <memory>
+#include <span>
 #include <string>
 #include <unordered_map>
 #include <utility>
@@ -48,6 +49,25 @@ void checkRegion(const Box& region) {
   broadPhase.init();
 }
 
+collision::VerificationError differenceAt(std::size_t pair) {
+  return collision::VerificationError("verification failed: pair " + std::to_string(pair) +
+                                      " is not that of the exhaustive search");
+}
+
+/// The exhaustive search in constant memory, whose pairs have to be those that were found, in their order.
+void verifyBoxes(const BoxView& boxes, std::span<const Pair> found, OverlapOptions engine) {
+  engine.strategy = Strategy::Exhaustive;
+  std::size_t next = 0;
+  const auto compare = [&](std::span<const Pair> batch) {
+    for (const Pair& pair : batch) {
+      if (next == found.size() || found[next] != pair) throw differenceAt(next);
+      ++next;
+    }
+  };
+  streamOverlaps(boxes, compare, engine);
+  if (next != found.size()) throw differenceAt(next);
+}
+
 std::vector<Pair> detectBoxes(const BoxView& boxes, const DetectionOptions& options, const StopFlag& stop) {
   if (options.region) checkRegion(*options.region);
   const std::unique_ptr<Executor> executor = executorOf(options.threads);
@@ -59,6 +79,7 @@ std::vector<Pair> detectBoxes(const BoxView& boxes, const DetectionOptions& opti
   engine.executor = executor.get();
   engine.stop = &stop;
   std::vector<Pair> pairs = overlaps(boxes, engine);
+  if (options.verify) verifyBoxes(boxes, pairs, engine);
   for (Pair& pair : pairs) std::swap(pair.first, pair.second);
   return pairs;
 }

@@ -87,7 +87,9 @@ def test_a_file_of_boxes_is_its_array(tmp_path, dtype, order):
     np.testing.assert_array_equal(scene.boxes, rows)
     expected = every_pair(lower, upper)
     expected = expected[np.lexsort((expected[:, 0], expected[:, 1]))][:, ::-1]
-    np.testing.assert_array_equal(scene.detect(), expected)
+    for threads in (1, 2):
+        np.testing.assert_array_equal(scene.detect(threads=threads), expected)
+        np.testing.assert_array_equal(scene.detect(threads=threads, verify=True), expected)
 
 
 def test_boxes_of_a_file_live_as_long_as_their_array(tmp_path):
