@@ -9,17 +9,19 @@ from __future__ import annotations
 
 import errno
 import os
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Hashable, Sequence
 from contextlib import suppress
+from functools import partial
 from pathlib import Path
 from typing import Any, NamedTuple, Optional, Union
 from uuid import uuid4
 
 import numpy as np
 import numpy.typing as npt
-from dask.array.core import concatenate, from_delayed
+from dask.array.core import Array as DaskArray
 from dask.base import compute
-from dask.delayed import delayed
+from dask.delayed import Delayed, delayed
+from dask.highlevelgraph import HighLevelGraph
 
 from . import _arguments
 from . import count as count_in_memory
@@ -38,6 +40,11 @@ PathLike = Union[str, "os.PathLike[str]"]
 
 #: Boxes of a sample for each cell.
 _SAMPLE_OF_A_CELL = 1000
+
+#: Cells, where nobody says how many: each of them is a task for every part, and one for every range of pairs.
+_CELLS_OF_A_PART = 4
+_MOST_CELLS = 256
+_BOXES_OF_A_CELL = 4_000_000
 
 
 class _Piece(NamedTuple):
@@ -78,8 +85,9 @@ def _chosen(value: Any, rows: Array) -> Any:
     return value if _arguments.is_one(value) else value[rows]
 
 
-def _divide(part: Array, values: Values, plan: _Plan, *, begin: int, place: Place) -> list[_Piece]:
+def _divide(part: Array, own: list[Any], plan: _Plan, *, names: list[str], begin: int, place: Place) -> list[_Piece]:
     """The boxes of a part by cell, with their numbers."""
+    values = dict(zip(names, own))
     boxes = _numbers(part, place)
     with at(place):
         homes = plan.partition.cells_of(
@@ -112,7 +120,7 @@ def _arguments_of(sets: list[_Piece], settings: Values) -> Values:
     return {**settings, **{name: own if len(own) == 2 else own[0] for name, own in each.items()}}
 
 
-def _search(sets: list[list[_Piece]], cell: Array, settings: Values, ranges: tuple[Sequence[int], str]) -> list[Array]:
+def _search(sets: list[list[_Piece]], *, cell: Array, settings: Values, ranges: tuple[Sequence[int], str]) -> list[Array]:
     """The pairs of a cell, of one set or of two, by the range that their first box is in."""
     gathered = [_gathered(pieces) for pieces in sets]
     given = _arguments_of(gathered, settings)
@@ -127,7 +135,7 @@ def _search(sets: list[list[_Piece]], cell: Array, settings: Values, ranges: tup
     return list(np.split(pairs.astype(dtype), bounds))
 
 
-def _count(sets: list[list[_Piece]], cell: Array, settings: Values) -> int:
+def _count(sets: list[list[_Piece]], *, cell: Array, settings: Values) -> int:
     gathered = [_gathered(pieces) for pieces in sets]
     given = _arguments_of(gathered, settings)
     if len(gathered) == 1:
@@ -180,16 +188,52 @@ def _names_in(folder: Path, count: int) -> list[str]:
     return names
 
 
-def _written(merged: list[Any], output: PathLike) -> int:
+def _picked(items: Any, index: int) -> Any:
+    return items[index]
+
+
+class _Tasks:
+    """The tasks of one call, as one layer of a graph: to plan them one by one would copy the graph for each."""
+
+    def __init__(self, called: str) -> None:
+        self.name = f"allpairs-{called}-{uuid4().hex}"
+        self._tasks: dict[Hashable, Any] = {}
+        self._needs: list[Delayed] = []
+
+    def add(self, key: tuple[Any, ...], function: Callable[..., Any], *arguments: Any) -> Hashable:
+        """A task of this layer. An argument may be one too, or what `take` returns, or a list of these."""
+        name = (self.name, *key)
+        self._tasks[name] = (function, *arguments)
+        return name
+
+    def take(self, value: Any) -> Any:
+        """What stands for a value in a task, which may be one that waits."""
+        if not isinstance(value, Delayed):
+            return value
+        self._needs.append(value)
+        return value.key
+
+    def graph(self) -> HighLevelGraph:
+        return HighLevelGraph.from_collections(self.name, self._tasks, dependencies=self._needs)
+
+    def computed(self, results: list[Hashable]) -> list[Any]:
+        """Computes some of its tasks."""
+        self._tasks[self.name] = (list, results)
+        return compute(Delayed(self.name, self.graph()))[0]
+
+
+def _written(tasks: _Tasks, merged: list[Hashable], output: PathLike) -> int:
     """Computes the parts of a result into files of a folder, and returns the number of pairs. The files get their names
     when all are complete: a failure before leaves what was there."""
     folder = Path(os.path.abspath(_arguments.path_of("output", output)))
     names = _names_in(folder, len(merged))
     call = uuid4().hex
     try:
-        parts: Iterable[tuple[str, int]] = compute(
-            *[delayed(_write)(pairs, name, call) for pairs, name in zip(merged, names)]
-        )
+        writes = [
+            tasks.add(("write", number), partial(_write, path=name, call=call), pairs)
+            for number, (pairs, name) in enumerate(zip(merged, names))
+        ]
+        parts: list[tuple[str, int]] = tasks.computed(writes)
         for (beside, _), name in zip(parts, names):
             _put(beside, name)
     finally:
@@ -200,15 +244,11 @@ def _written(merged: list[Any], output: PathLike) -> int:
     return sum(count for _, count in parts)
 
 
-def _picked(items: Any, index: int) -> Any:
-    return items[index]
-
-
 class _Cell(NamedTuple):
     """A cell, and the task for the boxes of each part of each set in it."""
 
     bounds: Array
-    sets: list[list[Any]]
+    sets: list[list[Hashable]]
 
 
 def _settings_of(values: Values) -> Values:
@@ -239,41 +279,68 @@ def _partition_of(sets: list[BoxParts], cells: int, distance: float) -> Partitio
     return Partition(rows, cells=cells, distance=distance, margin=apart)
 
 
-def _divided(each: BoxParts, plan: Any) -> list[Any]:
+def _cells_wanted(sets: list[BoxParts], cells: Optional[int]) -> int:
+    if cells is not None:
+        return _arguments.whole("cells", cells, least=1)
+    boxes = sum(each.begins[-1] for each in sets)
+    most = max(_MOST_CELLS, boxes // _BOXES_OF_A_CELL)
+    return min(_CELLS_OF_A_PART * sum(len(each.parts) for each in sets), most)
+
+
+def _divided(tasks: _Tasks, each: BoxParts, number: int, plan: Hashable) -> list[Hashable]:
     """For each part of a set the task that divides its boxes among the cells."""
     return [
-        delayed(_divide)(part, values, plan, begin=begin, place=place)
-        for part, values, begin, place in zip(each.parts, each.values, each.begins, each.places)
+        tasks.add(
+            ("divide", number, i),
+            partial(_divide, names=list(values), begin=begin, place=place),
+            tasks.take(part),
+            [tasks.take(value) for value in values.values()],
+            plan,
+        )
+        for i, (part, values, begin, place) in enumerate(zip(each.parts, each.values, each.begins, each.places))
     ]
 
 
-def _cells_of(sets: list[BoxParts], distance: float, cells: Optional[int]) -> list[_Cell]:
+def _cells_of(tasks: _Tasks, sets: list[BoxParts], distance: float, cells: Optional[int]) -> list[_Cell]:
     """The cells of space, by a sample that is computed now, and tasks for the boxes in each, which wait."""
-    parts = sum(len(each.parts) for each in sets)
-    wanted = _arguments.whole("cells", 4 * parts if cells is None else cells, least=1)
-    partition = _partition_of(sets, wanted, distance)
-    greatest = delayed(max)([delayed(_greatest)(own) for margins in _margins_of(sets) for own in margins])
-    plan = delayed(_Plan)(partition, distance, greatest)
-    divided = [_divided(each, plan) for each in sets]
-    pick = delayed(_picked)
+    partition = _partition_of(sets, _cells_wanted(sets, cells), distance)
+    margins = [own for margins in _margins_of(sets) for own in margins]
+    greatest = [tasks.add(("greatest", number), _greatest, tasks.take(own)) for number, own in enumerate(margins)]
+    plan = tasks.add(("plan",), partial(_Plan, partition, distance), tasks.add(("greatest",), max, greatest))
+    divided = [_divided(tasks, each, number, plan) for number, each in enumerate(sets)]
     return [
-        _Cell(bounds, [[pick(part, number) for part in parts] for parts in divided])
-        for number, bounds in enumerate(partition.cells)
+        _Cell(
+            bounds,
+            [
+                [tasks.add(("pick", number, i, cell), _picked, part, cell) for i, part in enumerate(parts)]
+                for number, parts in enumerate(divided)
+            ],
+        )
+        for cell, bounds in enumerate(partition.cells)
     ]
 
 
-def _planned(values: Values) -> tuple[Values, list[BoxParts], list[_Cell]]:
+def _planned(tasks: _Tasks, values: Values) -> tuple[Values, list[BoxParts], list[_Cell]]:
     """The settings, the sets of boxes and the cells of a search, from the arguments of a function."""
     settings = _settings_of(values)
     sets = box_parts(values)
-    return settings, sets, _cells_of(sets, settings["distance"], values["cells"])
+    return settings, sets, _cells_of(tasks, sets, settings["distance"], values["cells"])
 
 
-def _merged(cells: list[_Cell], settings: Values, ranges: tuple[Sequence[int], str]) -> list[Any]:
+def _merged(tasks: _Tasks, cells: list[_Cell], settings: Values, ranges: tuple[Sequence[int], str]) -> list[Hashable]:
     """For each range that the first boxes of pairs are in, the task for its pairs, of all cells."""
-    found = [delayed(_search)(cell.sets, cell.bounds, settings, ranges) for cell in cells]
-    pick = delayed(_picked)
-    return [delayed(_merge)([pick(pairs, number) for pairs in found]) for number in range(len(ranges[0]) - 1)]
+    found = [
+        tasks.add(("search", number), partial(_search, cell=cell.bounds, settings=settings, ranges=ranges), cell.sets)
+        for number, cell in enumerate(cells)
+    ]
+    return [
+        tasks.add(
+            (number, 0),  # as chunks of an array are named
+            _merge,
+            [tasks.add(("pairs", cell, number), _picked, pairs, number) for cell, pairs in enumerate(found)],
+        )
+        for number in range(len(ranges[0]) - 1)
+    ]
 
 
 def overlaps(
@@ -313,7 +380,8 @@ def overlaps(
         Of each box, as in `allpairs.overlaps`. Files are .npy, of shape (n,), and several are one array; they need not
         be cut where those of the boxes are. With ``second`` a tuple of two, one for each set, or a number for all boxes.
     cells : int
-        About how many tasks search; by default four for each chunk or file of all sets.
+        About how many tasks search; by default four for each chunk or file of all sets, but no more than 256, or than
+        one for each four million boxes. Each takes a task more for each chunk of the boxes, and of the result.
 
     Returns
     -------
@@ -331,13 +399,14 @@ def overlaps(
     array([[0, 1],
            [1, 2]], dtype=uint32)
     """
-    settings, sets, planned = _planned(locals())
+    values = locals()
+    tasks = _Tasks("overlaps")
+    settings, sets, planned = _planned(tasks, values)
     dtype = "uint32" if max(sum(each.sizes) for each in sets) <= 2**32 else "uint64"
-    merged = _merged(planned, settings, (sets[0].begins, dtype))
+    merged = _merged(tasks, planned, settings, (sets[0].begins, dtype))
     if output is not None:
-        return _written(merged, output)
-    chunks = [from_delayed(pairs, (np.nan, 2), dtype=dtype) for pairs in merged]
-    return concatenate(chunks, allow_unknown_chunksizes=True)
+        return _written(tasks, merged, output)
+    return DaskArray(tasks.graph(), tasks.name, ((np.nan,) * len(merged), (2,)), dtype=dtype)
 
 
 def count(
@@ -363,6 +432,13 @@ def count(
     >>> allpairs.dask.count(dask.array.zeros((1000, 6), chunks=(300, 6)))  # all in one place
     499500
     """
-    settings, _, planned = _planned(locals())
-    counts: Iterable[int] = compute(*[delayed(_count)(cell.sets, cell.bounds, settings) for cell in planned])
+    values = locals()
+    tasks = _Tasks("count")
+    settings, _, planned = _planned(tasks, values)
+    counts: list[int] = tasks.computed(
+        [
+            tasks.add(("count", number), partial(_count, cell=cell.bounds, settings=settings), cell.sets)
+            for number, cell in enumerate(planned)
+        ]
+    )
     return sum(counts)

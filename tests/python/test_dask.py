@@ -45,6 +45,19 @@ def test_the_pairs_are_those_of_one_search(scene):
     assert pairs.tobytes() == allpairs.overlaps(boxes).tobytes()
 
 
+def test_the_work_is_planned_as_one_layer_whose_tasks_grow_with_the_chunks():
+    boxes = boxes_of("uniform", np.float32)
+    margin = dask.array.zeros(len(boxes), chunks=100)
+    tasks = []
+    for chunk in (40, 20):
+        found = allpairs.dask.overlaps(dask.array.from_array(boxes, chunks=(chunk, 6)), margin=margin)
+        assert found.numblocks == (len(boxes) // chunk, 1)
+        layers = found.dask.layers
+        assert max(len(layer) for layer in layers.values()) > 0.9 * len(found.dask)
+        tasks.append(len(found.dask))
+    assert tasks[1] < 2.2 * tasks[0]
+
+
 @pytest.mark.parametrize("distance", [0.5, -0.25])
 def test_a_distance_is_that_of_one_search(distance):
     boxes = boxes_of("uniform", np.float32)
