@@ -308,7 +308,7 @@ void DiskJoin::searchCells() {
       CellJoin join(*m_spill, m_cells, m_budget.cellBoxes,
                     {.order = Order::Unordered, .distance = m_options.distance, .stop = m_options.stop});
       std::optional<RunWriter<Id>> writer;
-      if (!m_manifest.isCount) writer.emplace(m_ranges, m_budget.bufferPairs, m_runs);
+      if (!m_manifest.isCount) writer.emplace(m_ranges, m_budget.bufferPairs, m_runs, m_options.stop);
       for (std::size_t i = next++; i < left.size() && !hasFailed; i = next++) {
         searchCell(left[i], join, writer ? &*writer : nullptr);
       }

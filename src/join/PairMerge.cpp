@@ -222,7 +222,7 @@ void PairMerge<Id>::divideRange(std::span<const Run> runs, std::size_t range, Re
   RunFile file{WorkFile(m_scratch, WorkFile::Mode::Create)};
   std::vector<Run> divided;
   {
-    RunWriter<Id> writer(parts, m_memory / (2 * sizeof(StoredPair<Id>)), file);
+    RunWriter<Id> writer(parts, m_memory / (2 * sizeof(StoredPair<Id>)), file, m_stop);
     m_batch.resize(kBatch);
     forEachPart(runs, range, range + 1, [&](std::uint64_t position, std::uint64_t count) {
       while (count > 0) {

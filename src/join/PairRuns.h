@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "WorkFile.h"
+#include "allpairs/StopFlag.h"
 
 namespace allpairs::join {
 
@@ -63,13 +64,13 @@ struct RunFile {
   std::atomic<std::uint64_t> end = 0;
 };
 
-/// Gathers pairs and writes them as runs.
+/// Gathers pairs and writes them as runs. `stop` soon ends that, if it is given: a run may be a hundred megabytes.
 ///
 /// Threads: one thread per writer; several writers of the same file.
 template <class Id>
 class RunWriter {
  public:
-  RunWriter(const KeyRanges& ranges, std::size_t bufferPairs, RunFile& file);
+  RunWriter(const KeyRanges& ranges, std::size_t bufferPairs, RunFile& file, const StopFlag* stop = nullptr);
 
   void add(std::uint64_t first, std::uint64_t second) {
     m_found.push_back({static_cast<Id>(first), static_cast<Id>(second)});
@@ -81,10 +82,13 @@ class RunWriter {
 
  private:
   void flush();
+  template <class Use>
+  void forEachBatch(const Use& use) const;
 
   KeyRanges m_ranges;
   std::size_t m_capacity;
   RunFile& m_file;
+  const StopFlag* m_stop;
   std::vector<StoredPair<Id>> m_found;
   std::vector<StoredPair<Id>> m_grouped;
   std::vector<std::uint64_t> m_begins;

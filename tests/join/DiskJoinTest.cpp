@@ -280,6 +280,18 @@ TEST(DiskJoin, BoxesThatAreNotOfTheJoinAndRangesThatAreNoneAreErrors) {
   EXPECT_THROW((void)writer.finish(), FileError);
 }
 
+TEST(DiskJoin, ARunCanBeStoppedWhileItIsWritten) {
+  const TempFolder folder;
+  StopFlag stop;
+  join::RunFile file{join::WorkFile(folder.path() / "pairs", join::WorkFile::Mode::Create)};
+  join::RunWriter<std::uint64_t> writer(join::KeyRanges::of(0, 10, false, 4), 10, file, &stop);
+  writer.add(1, 2);
+  stop.set();
+  EXPECT_THROW((void)writer.finish(), Stopped);
+  stop.clear();
+  EXPECT_EQ(writer.finish().size(), 1U);
+}
+
 TEST(DiskJoin, ARangeThatIsDividedAgainCanBeStopped) {
   const TempFolder folder;
   const join::KeyRanges ranges = join::KeyRanges::of(0, 10'000, false, 1);
