@@ -114,4 +114,6 @@ write_basic_package_version_file("${PROJECT_BINARY_DIR}/AllpairsConfigVersion.cm
 install(FILES "${PROJECT_BINARY_DIR}/AllpairsConfig.cmake" "${PROJECT_BINARY_DIR}/AllpairsConfigVersion.cmake"
         DESTINATION ${allpairs_package_dir})
 
-include(AllpairsPackages)
+if(PROJECT_IS_TOP_LEVEL) # what a parent packs is its own affair
+  include(AllpairsPackages)
+endif()

@@ -56,6 +56,29 @@ foreach(package TBB assimp fcl Bullet SofaFramework GTest) # whose folders find_
   endif()
 endforeach()
 
+# Installed with that project, ours is in what that project packs, if anything: it makes no packages of its own.
+configure_consumer(${WORK}/installed -D ALLPAIRS_SOURCE=${ALLPAIRS_SOURCE} -D ALLPAIRS_INSTALL=ON)
+if(EXISTS ${WORK}/installed/CPackConfig.cmake)
+  message(FATAL_ERROR "a project that packs nothing is packed as Allpairs")
+endif()
+file(READ ${WORK}/installed/allpairs/cmake_install.cmake rules)
+if(NOT rules MATCHES "AllpairsConfig.cmake")
+  message(FATAL_ERROR "ALLPAIRS_INSTALL=ON installs nothing")
+endif()
+
+# What is not to be installed is not, the command neither.
+if(APP)
+  configure_consumer(${WORK}/commands -D ALLPAIRS_SOURCE=${ALLPAIRS_SOURCE} -D ALLPAIRS_BUILD_APP=ON -D ALLPAIRS_BUILD_SCENE=ON
+                     -D ALLPAIRS_BUILD_PARALLEL=ON)
+  file(GLOB_RECURSE scripts ${WORK}/commands/allpairs/cmake_install.cmake)
+  foreach(script IN LISTS scripts)
+    file(READ ${script} rules)
+    if(rules MATCHES "file\\(INSTALL")
+      message(FATAL_ERROR "installs without ALLPAIRS_INSTALL: ${script}")
+    endif()
+  endforeach()
+endif()
+
 # A project that is C++17, which ours is not for it, is debugged, and wants no warnings.
 set(SOURCE ${CMAKE_CURRENT_LIST_DIR}/consumer)
 configure_consumer(${WORK}/build -D ALLPAIRS_SOURCE=${ALLPAIRS_SOURCE} -D PARTS=engine,collision -D
@@ -66,8 +89,13 @@ build_and_run(${WORK}/build)
 expect_built(${WORK}/build liballpairs liballpairs_collision)
 
 # A part without what it needs is refused before anything is compiled.
-execute_process(COMMAND ${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR}/../.. -B ${WORK}/partly -D ALLPAIRS_BUILD_SCENE=OFF
-                RESULT_VARIABLE status OUTPUT_QUIET ERROR_VARIABLE said)
-if(status EQUAL 0 OR NOT said MATCHES "ALLPAIRS_BUILD_APP needs ALLPAIRS_BUILD_SCENE")
-  message(FATAL_ERROR "a command without readers: ${status}: ${said}")
-endif()
+function(expect_refusal said_of)
+  execute_process(COMMAND ${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR}/../.. -B ${WORK}/partly ${ARGN}
+                  RESULT_VARIABLE status OUTPUT_QUIET ERROR_VARIABLE said)
+  if(status EQUAL 0 OR NOT said MATCHES "${said_of}")
+    message(FATAL_ERROR "${ARGN}: ${status}: ${said}")
+  endif()
+endfunction()
+expect_refusal("ALLPAIRS_BUILD_APP needs ALLPAIRS_BUILD_SCENE" -D ALLPAIRS_BUILD_SCENE=OFF)
+expect_refusal("ALLPAIRS_BUILD_BENCHMARKS needs ALLPAIRS_BUILD_PARALLEL" -D ALLPAIRS_BUILD_SCENE=ON -D ALLPAIRS_BUILD_PARALLEL=OFF
+               -D ALLPAIRS_BUILD_APP=OFF -D ALLPAIRS_BUILD_C=OFF -D ALLPAIRS_BUILD_TESTS=OFF -D ALLPAIRS_BUILD_BENCHMARKS=ON)
