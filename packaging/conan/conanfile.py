@@ -55,7 +55,7 @@ class AllpairsConan(ConanFile):
         values = toolchain.cache_variables
         values["ALLPAIRS_BUILD_PARALLEL"] = bool(self.options.with_parallel or self.options.with_c)
         values["ALLPAIRS_BUILD_C"] = bool(self.options.with_c)
-        for name in ("BUILD_APP", "BUILD_SCENE", "BUILD_TESTS", "BUILD_EXAMPLES", "FCL", "MPI", "SOFA", "BULLET"):
+        for name in ("BUILD_APP", "BUILD_SCENE", "BUILD_TESTS", "BUILD_EXAMPLES", "FCL", "MPI", "SOFA", "BULLET", "COAL"):
             values[f"ALLPAIRS_{name}"] = False
         toolchain.generate()
         dependencies = CMakeDeps(self)

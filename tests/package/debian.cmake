@@ -91,22 +91,33 @@ foreach(name IN LISTS made)
   if(NOT EXISTS ${documents}/changelog.gz)
     message(FATAL_ERROR "no compressed changelog is in ${name}")
   endif()
-  # The bill of materials names what the files of this package are linked with, and nothing of others.
+  # The bill of materials names what the files of this package are linked with and made of, and nothing of others.
   set(linked)
   if(name STREQUAL "allpairs")
     set(linked libc6 libpugixml1v5)
   elseif(name STREQUAL "liballpairs0")
-    set(linked libtbb12 -libassimp-dev)
+    set(linked libtbb12 +libhwy-dev -libassimp-dev)
+  elseif(name STREQUAL "liballpairs-scene0")
+    set(linked +libassimp-dev +libpugixml-dev)
   elseif(name MATCHES "^liballpairs-(c0|dev|bullet-dev|fcl-dev|fcl0)$")
     set(linked -libassimp-dev -libpugixml-dev)
   endif()
   run(${CMAKE_CURRENT_LIST_DIR}/check-sbom ${documents}/sbom.spdx.json ${name} ${linked})
 endforeach()
 
+# Of a folder that tells nothing about what was compiled there is no bill of materials, rather than an empty one.
+execute_process(COMMAND ${ALLPAIRS_SOURCE}/scripts/make-sbom liballpairs0 1.0 ${root} ${WORK}
+                RESULT_VARIABLE status OUTPUT_QUIET ERROR_VARIABLE said)
+if(status EQUAL 0 OR NOT said MATCHES "build.ninja")
+  message(FATAL_ERROR "a bill of materials without a build: ${status}: ${said}")
+endif()
+
 # Debian's own checks find nothing.
 find_program(LINTIAN lintian)
 if(LINTIAN)
   run(${LINTIAN} --allow-root --fail-on error,warning --no-cfg ${packages})
+else()
+  message("lintian is missing: the packages are not checked by it")
 endif()
 
 # Nothing is in two packages, and nothing of the build is in one.

@@ -45,6 +45,23 @@ configure_consumer(${WORK}/engine ${found} ${bare} -D PARTS=engine)
 build_and_run(${WORK}/engine)
 configure_consumer(${WORK}/default ${found} ${bare} -D PARTS=none)
 
+# A project's own oneTBB is taken, and a part that was not loaded is not there.
+file(WRITE ${WORK}/own/CMakeLists.txt "
+cmake_minimum_required(VERSION 3.25)
+project(Own LANGUAGES CXX)
+add_library(TBB::tbb INTERFACE IMPORTED)
+find_package(Allpairs REQUIRED COMPONENTS \${PARTS})
+if(Allpairs_engine_FOUND AND NOT TARGET allpairs::allpairs)
+  message(FATAL_ERROR \"the engine is said to be there, and is not\")
+endif()
+")
+foreach(part IN ITEMS c parallel)
+  if(COMPONENTS MATCHES "(^|,)${part}(,|$)")
+    run(${CMAKE_COMMAND} -S ${WORK}/own -B ${WORK}/own/${part} -G ${GENERATOR} -D CMAKE_CXX_COMPILER=${COMPILER} ${found} ${bare}
+        -D PARTS=${part})
+  endif()
+endforeach()
+
 # A part that is not there is an error that names it.
 execute_process(COMMAND ${CMAKE_COMMAND} -S ${SOURCE} -B ${WORK}/unknown -G ${GENERATOR} -D PARTS=submarine
                         -D CMAKE_CXX_COMPILER=${COMPILER} ${found} RESULT_VARIABLE result ERROR_VARIABLE output

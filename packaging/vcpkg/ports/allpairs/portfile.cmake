@@ -1,3 +1,5 @@
+set(VCPKG_POLICY_DLLS_IN_STATIC_LIBRARY enabled) # the library for C is always shared, and holds what it needs
+
 vcpkg_download_distfile(
     ARCHIVE
     URLS "https://example.org/allpairs/allpairs-0.1.0.tar.gz"
