@@ -7,6 +7,7 @@ import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
 import { chromium } from "playwright-core";
+import { chromiumPath } from "./chromium.mjs";
 
 const root = resolve(fileURLToPath(new URL("..", import.meta.url)));
 const folder = mkdtempSync(join(tmpdir(), "allpairs-picture-"));
@@ -80,7 +81,7 @@ function makeParts() {
 const args = ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist"];
 makeParts();
 execFileSync(process.env.ALLPAIRS ?? join(root, "build/release/bin/allpairs"), ["view", parts, "-o", join(folder, "page.html")]);
-const browser = await chromium.launch({ executablePath: "/usr/bin/chromium", args });
+const browser = await chromium.launch({ executablePath: chromiumPath(), args });
 const page = await browser.newPage({ viewport: { width: 1280, height: 800 } });
 await page.goto(`file://${join(folder, "page.html")}`);
 await page.waitForFunction(() => document.documentElement.dataset.complete);

@@ -14,6 +14,7 @@ from conftest import every_pair, random_boxes
 EXAMPLES = pathlib.Path(__file__).parents[2] / "examples"
 SCENE = EXAMPLES / "scenes" / "demo.scn"
 DATA = pathlib.Path(os.environ.get("ALLPAIRS_DATA", pathlib.Path(__file__).parents[3] / "shared" / "data"))
+assert "ALLPAIRS_DATA" not in os.environ or DATA.is_dir(), f"ALLPAIRS_DATA is no folder: {DATA}"
 
 
 def test_a_scene_has_models_with_boxes_and_flags():

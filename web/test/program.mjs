@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the tests run: the program, and Debian's Chromium, or for firefox.test.mjs Firefox, on the pages that it writes.
+// What the tests run: the program, and Chromium, or for firefox.test.mjs Firefox, on the pages that it writes.
 
 import { execFileSync } from "node:child_process";
 import { existsSync, mkdirSync, mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
@@ -8,6 +8,7 @@ import { basename, dirname, join, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
 import { test } from "node:test";
 import { chromium } from "playwright-core";
+import { chromiumPath } from "../chromium.mjs";
 import { Firefox, hasFirefox } from "./firefox.mjs";
 import { FirefoxPage } from "./firefox-page.mjs";
 
@@ -23,9 +24,10 @@ export const verdicts = (...args) => execFileSync(process.env.ALLPAIRS_VERDICTS 
 export const detect = (...args) => JSON.parse(allpairs("detect", "--format", "json", ...args));
 export const screenshot = (page, name) => page.screenshot({ path: join(pages, `${name}.png`) });
 
-/** The folder of real data with known answers, or null; the project carries none of it. */
+/** The folder of real data with known answers, or null; the project carries none of it. One that is named has to be there. */
 export function dataFolder() {
   const data = process.env.ALLPAIRS_DATA ?? join(root, "../shared/data");
+  if (process.env.ALLPAIRS_DATA !== undefined && !existsSync(data)) throw new Error(`ALLPAIRS_DATA is no folder: ${data}`);
   return existsSync(join(data, "scenes")) ? data : null;
 }
 
@@ -68,12 +70,14 @@ export function shapes() {
   return join(folder, "shapes");
 }
 
-/** Whether the program tests shapes. */
+/** Whether the program tests shapes: it does, or says that it was built without; anything else is a failure. */
 export function hasExact() {
   try {
-    return allpairs("detect", shapes(), "--exact").length > 0;
-  } catch {
-    return false;
+    execFileSync(program, ["detect", shapes(), "--exact"], { ...many, stdio: ["ignore", "pipe", "pipe"] });
+    return true;
+  } catch (problem) {
+    if (/--exact needs FCL/.test(problem.stderr)) return false;
+    throw problem;
   }
 }
 
@@ -104,7 +108,7 @@ let browser;
 /** Firefox, with which several files of tests begin, starts once. */
 export async function startBrowser(...more) {
   if (isFirefox) browser ??= hasFirefox ? Firefox.start(1920, 1200) : undefined;
-  else browser = chromium.launch({ executablePath: "/usr/bin/chromium", args: [...args, ...more], timeout: 120_000 });
+  else browser = chromium.launch({ executablePath: chromiumPath(), args: [...args, ...more], timeout: 120_000 });
   return browser;
 }
 

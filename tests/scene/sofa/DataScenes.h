@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstdlib>
 #include <filesystem>
+
+#include "support/Data.h"
 
 namespace allpairs::scene {
 
 /// The folder of scenes with known answers; empty where there is none.
 inline std::filesystem::path dataScenes() {
-  const char* folder = std::getenv("ALLPAIRS_DATA");
-  const auto scenes = std::filesystem::path{folder != nullptr ? folder : "../shared/data"} / "scenes";
+  const auto scenes = test::dataFolder() / "scenes";
   return std::filesystem::is_directory(scenes) ? scenes : std::filesystem::path{};
 }
 
