@@ -28,7 +28,7 @@ struct TaskRecord {
 /// A file of CSV with a line for each record; without a name, none is written. Read by bench/report.
 class RecordFile {
  public:
-  explicit RecordFile(const std::string& path) {
+  explicit RecordFile(const std::string& path) : m_path(path) {
     if (path.empty()) return;
     m_file.open(path);
     if (!m_file) throw FileError(path, "can't be written");
@@ -43,10 +43,13 @@ class RecordFile {
            << record.setting << "\"," << record.results << ',' << record.cpuMs.size() << ','
            << measure::median(record.cpuMs) << ',' << *least << ',' << *most << ',' << (record.right ? "yes" : "no")
            << ',' << m_provenance.commit << ",\"" << m_provenance.compiler << "\",\"" << m_provenance.processor << "\","
-           << m_provenance.date << '\n';
+           << m_provenance.date << '\n'
+           << std::flush;
+    if (!m_file) throw FileError(m_path, "can't be written");
   }
 
  private:
+  std::string m_path;
   measure::Provenance m_provenance = measure::provenance();
   std::ofstream m_file;
 };

@@ -13,7 +13,7 @@ from worlds import write_worlds
 
 
 def chart_cells(table):
-    """For each scene the size that most contenders were measured at, the largest of those below a million."""
+    """For each scene the largest size up to 100,000, above which not all settings are measured."""
     cells = []
     for scene in table.scenes():
         sizes = [boxes for boxes in table.sizes(scene) if boxes <= 100000]

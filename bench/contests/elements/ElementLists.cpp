@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "allpairs/collision/TriangleModel.h"
 #include "allpairs/scene/FileError.h"
@@ -31,8 +32,11 @@ float below(double value) {
                                               : nearest;
 }
 
-void addRow(const ElementStep& step, std::span<const std::uint32_t> vertices, std::vector<float>& rows) {
-  std::array<float, 6> row{};
+using Bounds = std::array<double, 6>;
+
+/// Of an element over the step: minima, then maxima.
+Bounds boundsOf(const ElementStep& step, std::span<const std::uint32_t> vertices) {
+  Bounds bounds{};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     double min = std::numeric_limits<double>::infinity();
     double max = -min;
@@ -41,8 +45,22 @@ void addRow(const ElementStep& step, std::span<const std::uint32_t> vertices, st
       min = std::min({min, step.start[i], step.end[i]});
       max = std::max({max, step.start[i], step.end[i]});
     }
-    row[axis] = below(min);
-    row[axis + 3] = -below(-max);
+    bounds[axis] = min;
+    bounds[axis + 3] = max;
+  }
+  return bounds;
+}
+
+bool meet(const Bounds& a, const Bounds& b) {
+  return a[0] <= b[3] && b[0] <= a[3] && a[1] <= b[4] && b[1] <= a[4] && a[2] <= b[5] && b[2] <= a[5];
+}
+
+void addRow(const ElementStep& step, std::span<const std::uint32_t> vertices, std::vector<float>& rows) {
+  const Bounds bounds = boundsOf(step, vertices);
+  std::array<float, 6> row{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    row[axis] = below(bounds[axis]);
+    row[axis + 3] = -below(-bounds[axis + 3]);
   }
   rows.insert(rows.end(), row.begin(), row.end());
 }
@@ -98,6 +116,27 @@ std::vector<Pair> withoutShared(std::span<const Pair> pairs, elements::Candidate
                                                                     : share(std::array{pair.first}, faces[pair.second]);
     if (!shared) kept.push_back(pair);
   }
+  return kept;
+}
+
+std::vector<Pair> overlapping(std::span<const Pair> pairs, elements::CandidateKind kind, const ElementStep& step,
+                              const elements::MeshTopology& topology) {
+  const auto firstBounds = [&](std::uint32_t i) {
+    return kind == elements::CandidateKind::VertexFace ? boundsOf(step, std::array{i})
+           : kind == elements::CandidateKind::EdgeEdge ? boundsOf(step, topology.edges()[i])
+                                                       : boundsOf(step, topology.triangles()[i]);
+  };
+  const auto secondBounds = [&](std::uint32_t i) {
+    return kind == elements::CandidateKind::EdgeEdge ? boundsOf(step, topology.edges()[i])
+                                                     : boundsOf(step, topology.triangles()[i]);
+  };
+  std::vector<Pair> kept;
+  for (Pair pair : pairs) {
+    if (!meet(firstBounds(pair.first), secondBounds(pair.second))) continue;
+    if (kind != elements::CandidateKind::VertexFace && pair.first > pair.second) std::swap(pair.first, pair.second);
+    kept.push_back(pair);
+  }
+  std::sort(kept.begin(), kept.end());
   return kept;
 }
 

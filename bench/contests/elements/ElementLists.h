@@ -30,6 +30,11 @@ struct ElementStep {
 [[nodiscard]] std::vector<Pair> withoutShared(std::span<const Pair> pairs, elements::CandidateKind kind,
                                               const elements::MeshTopology& topology);
 
+/// Those of the pairs whose boxes overlap in double, in ascending order, the smaller of two elements of a kind first: of
+/// a peer's pairs, whose boxes are rounded, what ours has to be.
+[[nodiscard]] std::vector<Pair> overlapping(std::span<const Pair> pairs, elements::CandidateKind kind,
+                                            const ElementStep& step, const elements::MeshTopology& topology);
+
 /// CGAL's search between two sets of rows, with a cutoff.
 [[nodiscard]] std::vector<Pair> cgalBetween(std::span<const float> first, std::span<const float> second,
                                             std::ptrdiff_t cutoff);

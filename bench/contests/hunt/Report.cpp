@@ -188,9 +188,9 @@ void printInDetail(const MatchResult& result) {
               describe(result.family).c_str());
   std::printf("%-16s %-32s %10s %10s %12s\n", "", "setting", "median", "by find()", "by overlaps()");
   for (const Entry& entry : result.entries) {
-    std::printf("%-16s %-32s %10s %10.2f %12.2f%s%s\n", entry.name.c_str(), entry.setting.c_str(),
+    std::printf("%-16s %-32s %10s %10.2f %12.2f%s%s%s\n", entry.name.c_str(), entry.setting.c_str(),
                 timeText(entry.ns).c_str(), entry.ns / result.entries[1].ns, entry.ns / result.entries[0].ns,
-                entry.leftOut ? "  estimated, left out" : "", entry.mistake.c_str());
+                entry.leftOut ? "  estimated, left out" : "", entry.mistake.empty() ? "" : "  ", entry.mistake.c_str());
   }
 }
 

@@ -45,8 +45,6 @@ class TreeSteps final : public MovingSearch, private btDbvt::ICollide {
 
 class BroadPhaseSteps final : public MovingSearch {
  public:
-  explicit BroadPhaseSteps(bool deferred) { m_broadPhase.m_deferedcollide = deferred; }
-
   void start(const MovingScene& scene) override {
     m_broadPhase.m_deferedcollide = true;  // All at once, when all boxes are in.
     for (std::size_t i = 0; i < scene.rows().size() / 6; ++i) {
@@ -88,7 +86,7 @@ class BroadPhaseSteps final : public MovingSearch {
 
 void addBulletContenders(std::vector<MovingContender>& contenders) {
   contenders.push_back({"Bullet", "dbvt, updated", [] { return std::make_unique<TreeSteps>(); }});
-  contenders.push_back({"Bullet", "dbvt broad phase", [] { return std::make_unique<BroadPhaseSteps>(true); }});
+  contenders.push_back({"Bullet", "dbvt broad phase", [] { return std::make_unique<BroadPhaseSteps>(); }});
 }
 
 }  // namespace allpairs::bench

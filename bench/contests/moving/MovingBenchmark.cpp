@@ -156,6 +156,7 @@ int runAll(const Request& request) {
     if (entries.empty()) continue;
     run(entries, request.stretch);
     report(motion, request, entries, csv);
+    if (csv.is_open() && !csv.flush()) throw FileError(request.output, "can't be written");
     for (const Entry& entry : entries) right = right && entry.wrongFrames == 0;
   }
   return right ? 0 : 1;
