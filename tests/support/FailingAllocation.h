@@ -41,7 +41,6 @@ class Fault {
   template <class Operation>
   bool during(Operation&& operation) {
     bool passed = false;
-    std::string other;
     startFailing(m_k, m_failing);
     try {
       std::forward<Operation>(operation)();
