@@ -200,7 +200,8 @@ class World {
   /// which others are wanted from then on, a negative one to end; a greater one than before changes nothing.
   ///
   /// A box is visited at most once. Some are a little farther, since distances are compared in float32; none of those
-  /// that are left out is within the last distance. The visitor may use const members of the world.
+  /// that are left out is within the last distance. The visitor may use const members of the world, and must not
+  /// change it.
   /// Bad input: a box with a NaN throws InvalidBox; a distance that is a NaN InvalidArgument, and ends a query that
   ///            returns it.
   void visitNear(const Box& box, double distance, FunctionRef<double(BoxId)> visit,

@@ -12,12 +12,6 @@
 #include "search/CallExecutor.h"
 
 namespace allpairs::engine {
-namespace {
-
-/// A key has 32 bits for the place of a pair.
-constexpr std::uint64_t kMostSorted = std::uint64_t{1} << 32U;
-
-}  // namespace
 
 void WorldLists::prepareStep(const BoxStore& store) {
   m_isSame = true;  // Until the step completes, it leaves the pairs without changes.
@@ -106,9 +100,10 @@ void WorldLists::groupOne(Grouped& list, std::span<const Pair> pairs, const Numb
     all |= number;
   });
   if (isGrouped) return;
-  if (pairs.size() > kMostSorted)
+  if (pairs.size() > std::uint64_t{1} << 32U) {  // A key has 32 bits for the place of a pair.
     throw LimitExceeded(pairs.size(),
                         std::to_string(pairs.size()) + " pairs are too many to be sorted by their worlds");
+  }
   m_keyed.requireAmply(pairs.size());
   m_spare.requireAmply(pairs.size());
   list.own.requireAmply(pairs.size());
