@@ -150,8 +150,8 @@ typedef struct allpairs_filter {
 typedef bool (*allpairs_accept)(void* context, uint32_t first, uint32_t second);
 
 /// Says whether to end a call, which is then ALLPAIRS_STOPPED: for a time limit, or for what another thread or a signal
-/// handler has written to an atomic variable. Asked every few milliseconds and once in some thousand pairs, by several
-/// threads at once if the handle has them; a call about few boxes may end first.
+/// handler has written to an atomic variable. Asked every few hundredths of a second and once in some thousand pairs,
+/// by several threads at once if the handle has them; a call about few boxes may end first.
 typedef bool (*allpairs_stop)(void* context);
 
 /// The allocator of a handle, for its working memory and its results. All null: aligned operator new, with large pages
@@ -390,7 +390,8 @@ typedef struct allpairs_step {
 ///
 /// Ids:       those of boxes added to a new world are consecutive, from 0. Ids of removed boxes are reused, but only
 ///            after the step that reports that their pairs have ended.
-/// Bad input: an id that is not in the world, or a NaN, is an ALLPAIRS_INVALID_BOX; the call then has no effect.
+/// Bad input: an id that is not in the world, or a NaN in a box, is an ALLPAIRS_INVALID_BOX; the call then has no
+///            effect.
 typedef struct allpairs_world allpairs_world;
 
 ALLPAIRS_C_API allpairs_status allpairs_world_create(const allpairs_world_options* options, allpairs_world** world);
@@ -580,8 +581,6 @@ typedef struct allpairs_sweep {
 } allpairs_sweep;
 
 /// Like find_first and find_all, for a swept box.
-///
-/// Bad input: a box with a NaN is an ALLPAIRS_INVALID_BOX.
 ALLPAIRS_C_API allpairs_status allpairs_world_sweep_first(allpairs_world* world, const allpairs_sweep* sweep,
                                                           const allpairs_query_filter* filter, allpairs_hit* hit);
 ALLPAIRS_C_API allpairs_status allpairs_world_sweep_all(allpairs_world* world, const allpairs_sweep* sweep,

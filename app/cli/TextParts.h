@@ -13,7 +13,8 @@
 
 namespace allpairs::app {
 
-/// Passes on text a part at a time: a call of the system for each line takes longer than the line, on network disks most.
+/// Passes on text a part at a time: a call of the system for each line takes longer than the line, most of all on
+/// network disks.
 class TextParts {
  public:
   explicit TextParts(Output& output) : m_output(output) {}

@@ -50,7 +50,7 @@ namespace allpairs {
 ///            and what a stop flag asks, may use other worlds too, and of the world that runs them what reads boxes
 ///            and the last result: box(), contains(), properties(), size(), idBound(), result(). They must not change
 ///            it. While its hierarchies or lists are about to change, queries and result(world) throw InvalidArgument
-///            there.
+///            there. An executor must not ask the world outside of the tasks.
 /// Moving:    a moved-from world is like a new one with default options.
 ///
 /// The lists of a step are valid until the next step. Queries return their own memory.
@@ -202,8 +202,8 @@ class World {
   /// A box is visited at most once. Some are a little farther, since distances are compared in float32; none of those
   /// that are left out is within the last distance. The visitor may use const members of the world, and must not
   /// change it.
-  /// Bad input: a box with a NaN throws InvalidBox; a distance that is a NaN InvalidArgument, and ends a query that
-  ///            returns it.
+  /// An empty box is near nothing. A visitor that returns a NaN ends the query.
+  /// Bad input: a box with a NaN throws InvalidBox, a distance that is a NaN InvalidArgument.
   void visitNear(const Box& box, double distance, FunctionRef<double(BoxId)> visit,
                  const QueryFilter& filter = {}) const;
 

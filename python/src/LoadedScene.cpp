@@ -49,23 +49,28 @@ void checkRegion(const Box& region) {
   broadPhase.init();
 }
 
-collision::VerificationError differenceAt(std::size_t pair) {
-  return collision::VerificationError("verification failed: pair " + std::to_string(pair) +
-                                      " is not that of the exhaustive search");
+std::string nameOf(const Pair* pair) {
+  return pair == nullptr ? "none" : "(" + std::to_string(pair->first) + ", " + std::to_string(pair->second) + ")";
 }
 
 /// The exhaustive search in constant memory, whose pairs have to be those that were found, in their order.
 void verifyBoxes(const BoxView& boxes, std::span<const Pair> found, OverlapOptions engine) {
   engine.strategy = Strategy::Exhaustive;
   std::size_t next = 0;
-  const auto compare = [&](std::span<const Pair> batch) {
+  const auto compare = [&](const Pair* expected) {
+    const Pair* const pair = next < found.size() ? &found[next] : nullptr;
+    if (pair != nullptr && expected != nullptr && *pair == *expected) return;
+    throw collision::VerificationError("verification failed: pair " + std::to_string(next) + " is " + nameOf(pair) +
+                                       ", and " + nameOf(expected) + " by an exhaustive search");
+  };
+  const auto compareAll = [&](std::span<const Pair> batch) {
     for (const Pair& pair : batch) {
-      if (next == found.size() || found[next] != pair) throw differenceAt(next);
+      compare(&pair);
       ++next;
     }
   };
-  streamOverlaps(boxes, compare, engine);
-  if (next != found.size()) throw differenceAt(next);
+  streamOverlaps(boxes, compareAll, engine);
+  if (next != found.size()) compare(nullptr);
 }
 
 std::vector<Pair> detectBoxes(const BoxView& boxes, const DetectionOptions& options, const StopFlag& stop) {

@@ -358,6 +358,8 @@ class CalledBack : public ::testing::TestWithParam<std::string> {
   std::vector<BoxId> ids;
   bool isOn = false;
   std::atomic<std::size_t> refused = 0;
+  std::atomic<std::size_t> refusedLists = 0;
+  std::atomic<std::uint64_t> sum = 0;
 
   std::function<void()> call = [this] { callOnce(); };
   CallingExecutor calling{call};
@@ -385,6 +387,10 @@ class CalledBack : public ::testing::TestWithParam<std::string> {
       ++refused;
       EXPECT_TRUE(isRefused([&] { world.move(0, boxes[0]); }));
     }
+    const auto readLists = [&] {
+      for (const Pair& pair : world.result(0U).pairs) sum += pair.second;
+    };
+    if (isRefused(readLists)) ++refusedLists;
     EXPECT_EQ(world.box(1), boxes[1]);
     EXPECT_TRUE(world.contains(2));
     isCalling = false;
@@ -409,6 +415,10 @@ TEST_P(CalledBack, AStepRefusesAQueryUntilItHasUpdatedTheHierarchies) {
   refused = 0;
   test::compareLists(world.step(), other.step());
   EXPECT_GT(refused, 0U);
+  for (World* each : {&world, &other}) each->move(ids[0], moved[1]);
+  boxes[0] = moved[1];
+  test::compareLists(world.step(), other.step());
+  EXPECT_GT(refusedLists, 0U);
 }
 
 TEST_P(CalledBack, AQueryThatUpdatesTheHierarchiesRefusesAnother) {

@@ -112,6 +112,7 @@ def test_a_result_that_is_read_only_is_replaced_by_any_number_of_ranks(tmp_path)
     if os.geteuid() == 0:
         as_a_user = [shutil.which("setpriv") or pytest.skip("root may write it"), "--bounding-set", "-dac_override"]
     for ranks in (1, 2):
+        pairs.unlink(missing_ok=True)
         pairs.write_bytes(b"before")
         pairs.chmod(0o440)
         run(*as_a_user, MPIRUN, "-n", ranks, MPI_PROGRAM, "join", tmp_path / "boxes.npy", "-o", pairs)

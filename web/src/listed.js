@@ -56,7 +56,7 @@ function field(value) {
   return /[",\r\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text;
 }
 
-/** The columns of a list, which it has without an entry too. */
+/** The columns of a list without an entry: those that its entries would have. */
 const columns = {
   pairs: ({ scene }) => [
     "number", "first", "second",
@@ -69,9 +69,10 @@ const columns = {
   ],
 };
 
-/** Rows as CSV; a mark says that it is UTF-8 where it is not ASCII, as spreadsheets want it. */
-export function csvOf(rows, head = Object.keys(rows[0])) {
-  const text = [head, ...rows.map(Object.values)].map((cells) => `${cells.map(field).join(",")}\n`).join("");
+/** Rows as CSV, or these columns where there is none; a mark says that it is UTF-8 where it is not ASCII, as
+ * spreadsheets want it. */
+export function csvOf(rows, none = []) {
+  const text = [rows.length > 0 ? Object.keys(rows[0]) : none, ...rows.map(Object.values)].map((cells) => `${cells.map(field).join(",")}\n`).join("");
   return /[\u0080-\uffff]/.test(text) ? `\ufeff${text}` : text;
 }
 

@@ -110,12 +110,12 @@ export class Margin {
     const { app } = this;
     const [frame] = app.scene.frames;
     const found = distance === this.first.distance ? this.first : pairsAt(app.scene, frame, distance);
+    this.show(distance);
     this.problem.textContent = found ? "" : `more than ${grouped(mostPairs)} pairs: too many for this page`;
     if (!found) return;
     frame.pairs = found.pairs;
     frame.excluded = found.excluded;
     Object.assign(app.scene, { distance, leavesOutExcluded: found.leavesOutExcluded });
-    this.show(distance);
     app.setFrame(0);
     app.choose(app.chosenPair ?? app.models, { look: false });
   }

@@ -32,19 +32,15 @@ using OriginSample = std::array<T, 32>;
   std::nth_element(minima.begin(), middle, end);
   const double point = *middle;
   if (!std::isfinite(point)) return 0.0;
-  double least = point;
-  double most = point;
+  double farthest = 0.0;
   std::size_t count = 0;
   for (const Box& box : boxes) {
     const double away = std::max(std::abs(box.min[axis] - point), std::abs(box.max[axis] - point));
-    if (!(away * kFarAway <= std::abs(point))) continue;
-    least = std::min(least, box.min[axis]);
-    most = std::max(most, box.max[axis]);
+    if (!(away * 2.0 * kFarAway < std::abs(point))) continue;
+    farthest = std::max(farthest, away);
     ++count;
   }
-  const double extent = most - least;
-  const bool isFar = extent > 0.0 ? kFarAway * extent < std::abs(point) : !isFloat32(point);
-  return isFar && 2 * count > boxes.size() ? point : 0.0;
+  return 2 * count > boxes.size() && (farthest > 0.0 || !isFloat32(point)) ? point : 0.0;
 }
 
 /// The point that the lanes of two sets are relative to: near most boxes of the larger set, by a sample, if they are

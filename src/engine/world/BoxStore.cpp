@@ -302,8 +302,10 @@ void BoxStore::clear() {
 void BoxStore::setProperties(std::span<const BoxId> ids, std::span<const BoxProperties> properties) {
   if (properties.size() != 1) checkLength(properties.size(), "properties", ids.size());
   check(ids);
-  if (ids.empty()) return;
-  checkMargins(properties, [&](std::size_t i) { return "the box with the id " + std::to_string(ids[i]); });
+  const auto nameOf = [&](std::size_t i) {
+    return i < ids.size() ? "the box with the id " + std::to_string(ids[i]) : std::string("no box");
+  };
+  checkMargins(properties, nameOf);
   reserveResettled(ids.size(), idBound());
   prepare(idBound(), Needs::of(properties));
   for (std::size_t i = 0; i < ids.size(); ++i) {

@@ -95,9 +95,8 @@ struct World::State {
 
   /// Updates the hierarchies for queries, once after each change.
   void settle() {
-    if (isSettled.load(std::memory_order_acquire)) return;
-    inUse.check("World");  // Only a step that has not updated them yet leaves them so.
     doOnce(isSettled, [this] {
+      inUse.check("World");  // Only a step that has not updated them yet leaves them so.
       if (options.executor == nullptr) return search.update(store, nullptr);
       engine::WorkingExecutor executor(working, *options.executor);
       search.update(store, &executor);
@@ -106,6 +105,7 @@ struct World::State {
 
   /// Groups the lists of the last step by world, once after each step.
   void group() {
+    if (isListing.load(std::memory_order_relaxed)) engine::InUse::refuse("World");
     doOnce(isGrouped, [this] { search.groupLists(); });
   }
 
@@ -131,6 +131,7 @@ struct World::State {
   engine::WorkingThreads working;       ///< On what the mutex guards.
   std::atomic<bool> isSettled = true;   ///< Whether the hierarchies hold all changes.
   std::atomic<bool> isGrouped = false;  ///< Whether the lists of the last step are grouped by world.
+  std::atomic<bool> isListing = false;  ///< Whether a step makes its lists.
 };
 
 World::World(WorldOptions options) {
@@ -255,10 +256,15 @@ StepResult World::step() {
   State& state = this->state();
   const auto mark = state.inUse.mark();
   // `accept` may group the lists of the step before.
-  const auto ungroup = [](std::atomic<bool>* isGrouped) { isGrouped->store(false, std::memory_order_relaxed); };
-  const std::unique_ptr<std::atomic<bool>, decltype(ungroup)> after(&state.isGrouped, ungroup);
+  const auto end = [](State* of) {
+    of->isGrouped.store(false, std::memory_order_relaxed);
+    of->isListing.store(false, std::memory_order_relaxed);
+  };
+  const std::unique_ptr<State, decltype(end)> after(&state, end);
   state.isGrouped.store(false, std::memory_order_relaxed);
-  return state.search.step(state.store, state.isSettled);
+  state.search.findPairs(state.store, state.isSettled);
+  state.isListing.store(true, std::memory_order_relaxed);
+  return state.search.listPairs(state.store);
 }
 
 StepResult World::result() const noexcept { return State::of(*this).search.result(); }

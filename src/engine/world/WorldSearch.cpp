@@ -63,7 +63,7 @@ void WorldSearch::shrink() noexcept {
   release(m_isChosen, m_chosen, m_large, m_partly, m_touchedIn, m_touched, m_runs);
 }
 
-StepResult WorldSearch::step(BoxStore& store, std::atomic<bool>& isUpdated) {
+void WorldSearch::findPairs(BoxStore& store, std::atomic<bool>& isUpdated) {
   static_cast<void>(begin(m_stepExecutor));
   m_history.dropChanges();
   m_lists.prepareStep(store);
@@ -85,6 +85,9 @@ StepResult WorldSearch::step(BoxStore& store, std::atomic<bool>& isUpdated) {
   m_statistics.exactTests = 0;
   join(store);
   m_statistics.boxTests += m_small.boxTests();
+}
+
+StepResult WorldSearch::listPairs(BoxStore& store) {
   if (m_statistics.joinedAll) {
     m_history.finishAll(m_stepExecutor, m_runner);
   } else if (store.touched().empty()) {

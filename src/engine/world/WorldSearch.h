@@ -36,8 +36,11 @@ class WorldSearch {
   /// Updates the hierarchies from the store, with tasks on an executor, or null for the calling thread.
   void update(BoxStore& store, Executor* on);
 
-  /// Finds the current pairs. Says from when on queries may be asked, if it updates the hierarchies.
-  StepResult step(BoxStore& store, std::atomic<bool>& isUpdated);
+  /// A step: finds the current pairs, and says from when on queries may be asked, if it updates the hierarchies.
+  void findPairs(BoxStore& store, std::atomic<bool>& isUpdated);
+
+  /// The rest of it: lists them, which changes the lists of the last step.
+  StepResult listPairs(BoxStore& store);
 
   /// Releases all memory except that of the last step's result.
   void shrink() noexcept;
