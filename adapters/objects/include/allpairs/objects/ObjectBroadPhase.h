@@ -433,10 +433,10 @@ class ObjectBroadPhase {
   }
 
   /// At most the distance, in double, of what the host finds within the least distance of a box, however it rounds.
-  static double reachOf(S least, double magnitude) {
+  static double reachOf(S least, double most) {
     if (least == std::numeric_limits<S>::max()) return std::numeric_limits<double>::infinity();
     const auto within = static_cast<double>(limitOf(least));
-    return within + 16.0 * static_cast<double>(std::numeric_limits<S>::epsilon()) * std::max(magnitude, within);
+    return within + 16.0 * static_cast<double>(std::numeric_limits<S>::epsilon()) * std::max(most, within);
   }
 
   /// Holds all boxes that the host finds within a distance, however it rounds: by the finite bounds, which it takes gaps
