@@ -146,10 +146,11 @@ class ObjectBroadPhase {
     for (const Pair& pair : pairs()) {
       if (ask(m_rows[pair.first], m_rows[pair.second], least)) return true;
     }
-    bool isTried = m_rows.bound() <= kOneByOne;
+    // Some objects ask about the others one by one. By then the least distance is small, and few pairs are within it.
+    BoxId next = kOneByOne;
     for (BoxId id = 0; id < m_rows.bound() && least > S(0); ++id) {  // what is left is apart
-      if (!isTried && least != std::numeric_limits<S>::max()) {
-        isTried = true;
+      if (id >= next && least != std::numeric_limits<S>::max()) {
+        next = 4 * id;
         if (const auto near = pairsApart(m_rows, id, least)) return askInTurn(*near, ask, least);
       }
       if (m_rows.hasBox(id) && eachNearApart(id, ask, least)) return true;
@@ -439,8 +440,8 @@ class ObjectBroadPhase {
     return within + 16.0 * static_cast<double>(std::numeric_limits<S>::epsilon()) * std::max(most, within);
   }
 
-  /// Holds all boxes that the host finds within a distance, however it rounds: by the finite bounds, which it takes gaps
-  /// from.
+  /// Holds all boxes that the host finds within a distance, however it rounds: by the finite bounds, which it takes
+  /// gaps from.
   [[nodiscard]] static Box widened(const Bounds& bounds, S distance) {
     Box box = toBox(bounds);
     const auto by = static_cast<double>(distance);
