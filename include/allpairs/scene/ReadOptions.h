@@ -50,7 +50,8 @@ struct ReadOptions {
   bool allowOutside = false;
 
   /// The maximum memory, in bytes, for reading an input. The default, 0, means half of the machine's memory, and at
-  /// most 256 MiB plus 256 bytes for each byte of the files that are read. It bounds the time of comparisons too.
+  /// most 256 MiB plus 256 bytes for each byte of the files that are read. It also bounds time: of points, elements and
+  /// the like, at most 32 pairs are compared for each byte of it.
   std::uint64_t maxMemory = 0;
 
   SofaVersion sofa = SofaVersion::FromScene;

@@ -232,7 +232,8 @@ class NodeReader {
     };
     m_corners.clear();
     for (unsigned i = 0; i < face.mNumIndices; ++i) m_corners.push_back(corner(i));
-    if (!addCutFace(object, m_corners, m_scope)) fail(object, "has " + tooIntricate(m_corners.size()));
+    const std::string problem = addCutFace(object, m_corners, m_scope);
+    if (!problem.empty()) fail(object, "has " + problem);
   }
 
   [[noreturn]] void fail(const MeshObject& object, const std::string& problem) const {

@@ -14,6 +14,10 @@ namespace {
 using Triangle = std::array<std::uint32_t, 3>;
 using Point2 = std::array<double, 2>;
 
+/// For how many pairs a test of a point and a triangle counts: for more than its time. No honest face needs more than
+/// some hundred tests a byte, and a megabyte of others is to take seconds, not half a minute.
+constexpr std::uint64_t kPairsPerTest = 8;
+
 /// Twice the area of a triangle, negative where it turns clockwise.
 double turn(const Point2& a, const Point2& b, const Point2& c) {
   return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
@@ -183,28 +187,28 @@ void addFace(MeshObject& object, std::span<const std::uint32_t> corners) {
   }
 }
 
-bool cutFan(std::span<const Point> positions, std::span<Triangle> fan, ReadScope& scope) {
+std::string cutFan(std::span<const Point> positions, std::span<Triangle> fan, ReadScope& scope) {
   scope.checkStop();
-  if (fan.size() < 2) return true;
+  if (fan.size() < 2) return {};
   const Sight sight = sightOf(positions, fan);
-  if (isWithinFace(positions, fan, sight)) return true;
+  if (isWithinFace(positions, fan, sight)) return {};
   const std::vector<std::uint32_t> corners = cornersOf(fan);
   auto target = fan.begin();
   EarCutter cutter(flattened(positions, corners, sight));
   const bool isCut = cutter.cut([&](std::size_t a, std::size_t b, std::size_t c) {
     *target++ = {corners[a], corners[b], corners[c]};
   });
-  return scope.takeWork(cutter.tests()) && isCut;
+  if (!isCut) {
+    return "a face of " + std::to_string(corners.size()) + " corners that is too intricate to be cut into triangles";
+  }
+  if (scope.takeWork(kPairsPerTest * cutter.tests())) return {};
+  return "a face up to which cutting faces into triangles takes too long; a larger --max-memory allows more";
 }
 
-bool addCutFace(MeshObject& object, std::span<const std::uint32_t> corners, ReadScope& scope) {
+std::string addCutFace(MeshObject& object, std::span<const std::uint32_t> corners, ReadScope& scope) {
   addFace(object, corners);
-  if (corners.size() < 3) return true;
+  if (corners.size() < 3) return {};
   return cutFan(object.positions, std::span(object.triangles).last(corners.size() - 2), scope);
-}
-
-std::string tooIntricate(std::size_t corners) {
-  return "a face of " + std::to_string(corners) + " corners that is too intricate to be cut into triangles";
 }
 
 }  // namespace allpairs::scene

@@ -23,16 +23,14 @@ void addFace(MeshObject& object, std::span<const std::uint32_t> corners);
 /// Exchanges the triangles of a fan by others, as many with the same corners, that lie within the face where the fan
 /// does not. A face that is not flat is seen along its normal; of one that crosses itself any triangles are as good.
 ///
-/// Returns false where that would take more than a second: it takes the square of the corners, of few shapes the cube;
-/// or where all faces together take longer than the scope allows.
+/// Returns what is wrong with the face, as "a face of 9 corners that ...", where that would take more than a second: it
+/// takes the square of the corners, of few shapes the cube; or where all faces together take longer than the scope
+/// allows. Else what it returns is empty.
 /// Source: G. H. Meisters, "Polygons have ears", The American Mathematical Monthly 82 (1975), 648-651.
-[[nodiscard]] bool cutFan(std::span<const Point> positions, std::span<std::array<std::uint32_t, 3>> fan,
-                          ReadScope& scope);
+[[nodiscard]] std::string cutFan(std::span<const Point> positions, std::span<std::array<std::uint32_t, 3>> fan,
+                                 ReadScope& scope);
 
 /// Adds a face whose positions the object has, and cuts it. Returns what cutFan() does.
-[[nodiscard]] bool addCutFace(MeshObject& object, std::span<const std::uint32_t> corners, ReadScope& scope);
-
-/// What is wrong with a face for which cutFan() returned false.
-[[nodiscard]] std::string tooIntricate(std::size_t corners);
+[[nodiscard]] std::string addCutFace(MeshObject& object, std::span<const std::uint32_t> corners, ReadScope& scope);
 
 }  // namespace allpairs::scene

@@ -74,9 +74,8 @@ class ObjReader final : ObjParser {
 
   void cut(const Fan& fan) {
     const auto triangles = std::span(m_objects[fan.object].triangles).subspan(fan.first, fan.count);
-    if (!cutFan(m_positions, triangles, m_scope)) {
-      failAt(fan.line, tooIntricate(fan.count + 2));
-    }
+    const std::string problem = cutFan(m_positions, triangles, m_scope);
+    if (!problem.empty()) failAt(fan.line, problem);
   }
 
   /// An "o" always begins an object; a "g" may go back to one of before.

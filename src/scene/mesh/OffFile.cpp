@@ -88,7 +88,8 @@ class OffReader {
       m_scope.takeElements(1, sizeof(m_object.triangles[0]));
       m_corners.push_back(resolve(word));
     }
-    if (!addCutFace(m_object, m_corners, m_scope)) fail(tooIntricate(size));
+    const std::string problem = addCutFace(m_object, m_corners, m_scope);
+    if (!problem.empty()) fail(problem);
   }
 
   std::uint32_t resolve(std::string_view word) const {

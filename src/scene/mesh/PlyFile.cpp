@@ -117,8 +117,8 @@ class PlyReader {
     }
     for (const Fan& fan : m_fans) {
       const auto triangles = std::span(m_object.triangles).subspan(fan.first, fan.count);
-      if (cutFan(m_object.positions, triangles, m_scope)) continue;
-      m_body.fail(fan.place.text() + " is " + tooIntricate(fan.count + 2));
+      const std::string problem = cutFan(m_object.positions, triangles, m_scope);
+      if (!problem.empty()) m_body.fail(fan.place.text() + " is " + problem);
     }
     if (!m_object.hasElements()) m_object.addAllPoints();
     return {std::move(m_object)};
