@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "allpairs/scene/FileError.h"
 #include "scene/sofa/SceneText.h"
+#include "sofa/evaluation/Evaluation.h"
+#include "sofa/graph/Links.h"
+#include "sofa/graph/SceneXml.h"
 
 namespace allpairs::scene::sofa {
 namespace {
@@ -119,7 +122,7 @@ std::vector<std::string> comparisons(const std::string& n, const std::string& be
 
 TEST_F(SofaHostile, MoreComparisonsThanTheFilesAreWorthAreRefused) {
   for (const auto& text : comparisons("50 50 50", "200000 1 1", 30'000))
-    EXPECT_THAT(complaintIn(text), HasSubstr("looking for the places of its points takes too long"))
+    EXPECT_THAT(complaintIn(text), HasSubstr("comparing so many points, elements or components takes too long"))
         << text.substr(0, 200);
 }
 
@@ -137,6 +140,46 @@ TEST_F(SofaHostile, AStopEndsLongComparisons) {
     const auto file = m_folder.write("scene.scn", "<Node>" + text + "</Node>");
     EXPECT_THROW((void)describeScene(file, options), Stopped) << text.substr(0, 200);
   }
+}
+
+TEST_F(SofaHostile, StatesOfOneNodeAreNotComparedWithItsComponents) {
+  constexpr int kStates = 8000;
+  std::string text;
+  for (int i = 0; i < kStates; ++i) text += "<MechanicalObject/>";
+  const auto file = m_folder.write("scene.scn", "<Node>" + text + "<FixedRotationConstraint/></Node>");
+  ReadScope reading(file, {});
+  const auto root = readSceneGraph(file, reading);
+  indexNames(*root);
+  ReadOptions options;
+  options.maxMemory = 200 * kStates;  // allows less than kStates squared comparisons
+  ReadScope scope(file, options);
+  Evaluation evaluation(*root, scope, Generation::Sofa26);
+  for (const auto* state : root->states) (void)evaluation.state(*state);
+  EXPECT_EQ(evaluation.warnings().size(), 1U);
+}
+
+TEST_F(SofaHostile, EachElementOfAModelCounts) {
+  const auto leastMemoryFor = [&](int triangles) {
+    std::string points;
+    for (int i = 0; i < 1000; ++i) points += "0 0 0 ";
+    const auto file =
+        m_folder.write("scene.scn", "<Node><MechanicalObject position='" + points + "'/><MeshTopology triangles='" +
+                                        repeatedTriangle(triangles) + "'/><TriangleModel/></Node>");
+    const auto isEnough = [&](std::uint64_t memory) {
+      ReadOptions options;
+      options.maxMemory = memory;
+      try {
+        (void)describeScene(file, options);
+      } catch (const FileError&) {
+        return false;
+      }
+      return true;
+    };
+    std::uint64_t little = 0, enough = std::uint64_t{16} << 20;
+    while (enough - little > 100) (isEnough((little + enough) / 2) ? enough : little) = (little + enough) / 2;
+    return enough;
+  };
+  EXPECT_LT(leastMemoryFor(2000), leastMemoryFor(1999) + 10'000);
 }
 
 /// Each would take twice as long as the one before it, and more, if what it gives were not remembered.

@@ -41,13 +41,16 @@ TEST_F(SofaMeshFile, AStopEndsTheReadingOfEveryKind) {
     spheres += "sphe 0 0 0 0 1\n";
     gmsh += std::to_string(i) + " 0 0 0\n";
   }
+  const std::string points = "<Piece><Points><DataArray>" + plain + "</DataArray></Points></Piece>";
   const std::vector<std::pair<std::string, std::string>> files = {
       {"a.obj", obj},
       {"a.off", "OFF\n200 0 0\n" + plain},
       {"a.trian", "200\n" + plain + "0\n"},
       {"a.sph", "sph 1.0\n" + spheres},
       {"a.msh", "$NOD\n200\n" + gmsh + "$ENDNOD\n$ELM\n0\n$ENDELM\n"},
-      {"a.vtk", "# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\nPOINTS 200 float\n" + plain}};
+      {"a.vtk", "# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\nPOINTS 200 float\n" + plain},
+      {"a.vtu", "<VTKFile><UnstructuredGrid>" + points + "</UnstructuredGrid></VTKFile>"},
+      {"a.vtp", "<VTKFile><PolyData>" + points + "</PolyData></VTKFile>"}};
   for (const auto& [name, text] : files) {
     EXPECT_THAT(mesh(name, text).positions, SizeIs(200)) << name;
     int asked = 0;

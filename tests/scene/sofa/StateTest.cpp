@@ -60,7 +60,13 @@ TEST_F(SofaState, AFloatAttributeThatDoesNotParseAsAWholeKeepsItsDefault) {
 
 TEST_F(SofaState, AFloatAttributeThatKeepsItsDefaultIsNamed) {
   const auto scene = readIn("<MechanicalObject position='1 1 1' dx='2 '/><PointModel/>");
-  EXPECT_THAT(scene.warnings.back().reason, HasSubstr("dx: '2 ' is not one number with nothing behind it"));
+  EXPECT_THAT(scene.warnings.back().reason, HasSubstr("dx: '2 ' is not one number alone"));
+}
+
+TEST_F(SofaState, AFloatAttributeThatIsALinkKeepsItsDefaultAndIsNamed) {
+  const auto scene = readIn("<MechanicalObject name='m' position='1 1 1' dx='@m.dy'/><PointModel/>");
+  EXPECT_EQ(scene.models.at(0).positions.at(0), (Vec3{1, 1, 1}));
+  EXPECT_THAT(scene.warnings.back().reason, HasSubstr("dx: a link is not followed here; it has the default"));
 }
 
 TEST_F(SofaState, AFloatAttributeWithAWordThatIsNoNumberIsAnError) {
@@ -69,7 +75,7 @@ TEST_F(SofaState, AFloatAttributeWithAWordThatIsNoNumberIsAnError) {
     EXPECT_THAT(failure("<MechanicalObject position='1 1 1' " + name + "='1,5'/>"),
                 HasSubstr(name + ": '1,5' is not a finite number"));
   EXPECT_THAT(failure("<MechanicalObject rz='90deg'/>"), HasSubstr("rz: '90deg' is not a finite number"));
-  EXPECT_THAT(failure("<MechanicalObject dx='1e50'/>"), HasSubstr("dx: '1e50' is not a finite number"));
+  EXPECT_THAT(failure("<MechanicalObject dx='1e50'/>"), HasSubstr("dx: '1e50' is out of the range of float32"));
   EXPECT_THAT(failure("<RegularGridTopology n='2 2 2' xmin='0,5' ymin='0' zmin='0' xmax='1' ymax='1' zmax='1'/>"
                       "<MechanicalObject/>"),
               HasSubstr("xmin: '0,5' is not a finite number"));

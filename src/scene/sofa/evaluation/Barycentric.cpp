@@ -313,8 +313,8 @@ bool areOf(const Topology& grid, const State& state) {
 void takeWork(Evaluation& evaluation, const Component& component, std::uint64_t pairs) {
   evaluation.scope().checkStop();
   if (evaluation.scope().takeWork(pairs)) return;
-  throw Unplaceable(component,
-                    "looking for the places of its points takes too long; a larger --max-memory allows more");
+  throw Unplaceable(
+      component, "comparing so many points, elements or components takes too long; a larger --max-memory allows more");
 }
 
 std::vector<Vec3> mapBarycentrically(Evaluation& evaluation, const Component& mapping, const Component& parent,

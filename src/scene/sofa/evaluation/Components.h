@@ -49,8 +49,8 @@ void warnOfPassedOver(Evaluation& evaluation, const Component& component, const 
 [[nodiscard]] State articulatedAtStart(Evaluation& evaluation, const Component& mapping, State child);
 /// Rigid frames that hang on each other by joints, at the angles of another state.
 [[nodiscard]] State mapArticulated(Evaluation& evaluation, const Component& mapping, State child);
-/// Counts pairs of points and what they are looked for in, and throws Unplaceable where that takes too long, and Stopped
-/// where reading is to stop.
+/// Counts pairs of what is about to be compared, and throws Unplaceable where that takes too long, and Stopped where
+/// reading is to stop.
 void takeWork(Evaluation& evaluation, const Component& component, std::uint64_t pairs);
 [[nodiscard]] std::vector<Vec3> mapBarycentrically(Evaluation& evaluation, const Component& mapping,
                                                    const Component& parent, const State& child);

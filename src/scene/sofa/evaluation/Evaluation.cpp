@@ -382,15 +382,19 @@ double Evaluation::single(const Component& component, std::string_view name, dou
   const auto* text = component.attributes.find(name);
   if (text == nullptr || text->empty()) return standard;
   if (const auto value = parseWholeFloat(*text)) return *value;
+  if (text->starts_with('@')) {
+    warn(component, std::string{name} + ": a link is not followed here; it has the default, as in SOFA");
+    return standard;
+  }
   std::string bad;
   const auto given = parseNumbers(*text, bad);
   constexpr auto kMost = static_cast<double>(std::numeric_limits<float>::max());
   const auto isTooLarge = [](double value) { return std::abs(value) > kMost; };
-  if (!given || std::ranges::any_of(*given, isTooLarge))
-    throw Unplaceable(component,
-                      std::string{name} + ": " + quotedWord(given ? *text : bad) + " is not a finite number");
-  warn(component, std::string{name} + ": " + quotedWord(*text) +
-                      " is not one number with nothing behind it; it has the default, as in SOFA");
+  if (!given) throw Unplaceable(component, std::string{name} + ": " + quotedWord(bad) + " is not a finite number");
+  if (std::ranges::any_of(*given, isTooLarge))
+    throw Unplaceable(component, std::string{name} + ": " + quotedWord(*text) + " is out of the range of float32");
+  warn(component,
+       std::string{name} + ": " + quotedWord(*text) + " is not one number alone; it has the default, as in SOFA");
   return standard;
 }
 

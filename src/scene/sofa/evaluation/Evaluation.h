@@ -89,6 +89,9 @@ class Evaluation {
   /// something later goes without; a warning says how.
   bool isMadeFor(const Component& component, const Component& needed, std::string_view without);
 
+  /// Whether this was never asked of a node before: what holds for all of its states is looked for once.
+  [[nodiscard]] bool isFirstStateIn(const Node& node) { return m_nodesOfStates.insert(&node).second; }
+
   /// The mapping that moves a state; null if none does.
   [[nodiscard]] const Component* mappingOf(const Component& state) const;
   /// The topological mapping that fills a topology; null if none does.
@@ -119,6 +122,7 @@ class Evaluation {
   std::vector<std::pair<const Component*, std::string>> m_busy;
   Warnings m_warnings;
   std::set<Warnings::value_type> m_warned;
+  std::set<const Node*> m_nodesOfStates;
 };
 
 [[nodiscard]] Numbers toNumbers(const std::vector<Vec3>& points);

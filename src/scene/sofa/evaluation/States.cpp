@@ -217,9 +217,9 @@ constexpr std::array kProjections{
     "SkeletalMotionProjectiveConstraint"sv,
 };
 
-void warnOfProjections(Evaluation& evaluation, const Component& state) {
-  takeWork(evaluation, state, state.node->components.size());
-  for (const auto& component : state.node->components)
+void warnOfProjections(Evaluation& evaluation, const Node& node) {
+  if (!evaluation.isFirstStateIn(node)) return;
+  for (const auto& component : node.components)
     if (std::ranges::binary_search(kProjections, std::string_view{component->type}))
       evaluation.warn(*component,
                       "SOFA may move points by it before it detects anything; here they are where they are without it");
@@ -247,7 +247,7 @@ State initialState(Evaluation& evaluation, const Component& component) {
   state.kind = kindOf(component);
   if (state.kind == State::Kind::Other || component.kind() != ComponentKind::MechanicalState)
     throw Unplaceable(component, "states of this kind have no points in space that this reader knows");
-  warnOfProjections(evaluation, component);
+  warnOfProjections(evaluation, *component.node);
   const std::size_t width = state.width();
   state.resize(1);
   const auto motion = state.kind == State::Kind::Points ? evaluation.gridMotion(component, "position") : std::nullopt;

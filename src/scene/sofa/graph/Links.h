@@ -43,6 +43,8 @@ struct LinkedData {
 /// Likewise of an attribute, or without it of `src`.
 [[nodiscard]] LinkedData followLinkOf(const Component& self, std::string_view name);
 
+/// isState and isTopology, given as they are, are answered from the lists that indexNames() has made, which must have
+/// been called before. Any others, such as a lambda around one of these, are asked of all components of a node.
 using Wanted = std::function<bool(const Component&)>;
 
 /// The first wanted component of a node itself; null if there is none.

@@ -105,8 +105,11 @@ Numbers withWidth(const Numbers& numbers, std::size_t width, const std::vector<d
   return result;
 }
 
-std::optional<std::vector<double>> parseNumbers(std::string_view text, std::string& bad) {
-  return parseWords(text, bad, appendNumber);
+std::optional<std::vector<double>> parseNumbers(std::string_view text, std::string& bad, const StopFlag* stop) {
+  return parseWords(text, bad, [stop](std::string_view word, std::vector<double>& values) {
+    checkStop(stop);
+    return appendNumber(word, values);
+  });
 }
 
 std::optional<std::vector<double>> parseNumberStream(std::string_view text, std::string& bad) {

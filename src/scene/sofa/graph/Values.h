@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "allpairs/StopFlag.h"
 #include "input/ReadScope.h"
 
 namespace allpairs::scene::sofa {
@@ -22,8 +23,10 @@ struct Numbers {
 /// The same entries with another number of numbers each: cut, or filled up from `filler` from that place on.
 [[nodiscard]] Numbers withWidth(const Numbers& numbers, std::size_t width, const std::vector<double>& filler = {});
 
-/// All numbers in a text; nothing, and the word at fault in `bad`, if there is one that is no finite number.
-[[nodiscard]] std::optional<std::vector<double>> parseNumbers(std::string_view text, std::string& bad);
+/// All numbers in a text; nothing, and the word at fault in `bad`, if there is one that is no finite number. Throws
+/// Stopped soon after a flag that is given is set.
+[[nodiscard]] std::optional<std::vector<double>> parseNumbers(std::string_view text, std::string& bad,
+                                                              const StopFlag* stop = nullptr);
 
 /// As a stream of C++ reads them, which needs no blank before what cannot go on the number before: "0-1" are 0 and -1,
 /// "1.5.2" are 1.5 and 0.2. Nothing, and the word at fault in `bad`, as above.

@@ -58,8 +58,8 @@ struct ObjOptions {
   bool splitSeams = false;   ///< One point for each combination of position, texture coordinate and normal.
 };
 
-// Each of these throws FileError, with the line, for what is malformed, cut off, or refers to points that don't exist, and
-// Stopped soon after a flag that is given is set.
+// Each of these throws FileError, with the line, for what is malformed, cut off, or refers to points that don't exist,
+// and Stopped soon after a flag that is given is set.
 
 [[nodiscard]] Mesh readObj(const std::filesystem::path& path, const ObjOptions& options, const StopFlag* stop);
 [[nodiscard]] Mesh readGmsh(const std::filesystem::path& path, const StopFlag* stop);

@@ -139,8 +139,8 @@ class LegacyVtkReader {
 /// The XML format with its arrays in text.
 class XmlVtkReader {
  public:
-  XmlVtkReader(const std::filesystem::path& path, const std::string& bytes, XmlSurfaces surfaces)
-      : m_path(path), m_surfaces(surfaces) {
+  XmlVtkReader(const std::filesystem::path& path, const std::string& bytes, XmlSurfaces surfaces, const StopFlag* stop)
+      : m_path(path), m_surfaces(surfaces), m_stop(stop) {
     const auto result = m_document.load_buffer(bytes.data(), bytes.size());
     if (result.status == pugi::status_out_of_memory) throw std::bad_alloc();
     if (!result) {
@@ -149,7 +149,7 @@ class XmlVtkReader {
     }
   }
 
-  Mesh read(const StopFlag* stop) {
+  Mesh read() {
     const auto file = m_document.child("VTKFile");
     const auto grid = file.child("UnstructuredGrid"), surface = file.child("PolyData");
     if (!grid && !surface) fail("only UnstructuredGrid and PolyData can be read");
@@ -158,7 +158,6 @@ class XmlVtkReader {
     const auto piece = (grid ? grid : surface).child("Piece");
     if (piece.next_sibling("Piece")) fail("has several pieces, of which SOFA keeps one only");
     const auto points = numbers(piece.child("Points").child("DataArray"));
-    checkStop(stop);
     for (std::size_t i = 0; i + 2 < points.size(); i += 3)
       m_mesh.positions.push_back({points[i], points[i + 1], points[i + 2]});
     auto cells = lists(piece.child(grid ? "Cells" : "Polys"));
@@ -168,7 +167,6 @@ class XmlVtkReader {
       for (const auto* count : {"NumberOfLines", "NumberOfStrips"})
         m_mesh.passedOver += piece.attribute(count).as_uint();
     }
-    checkStop(stop);
     addCells(cells, m_mesh, [this](const char* problem, std::size_t) { fail(problem); });
     return std::move(m_mesh);
   }
@@ -188,6 +186,7 @@ class XmlVtkReader {
     CellLists result;
     std::size_t begin = 0;
     for (const double end : ends) {
+      checkStop(m_stop);
       if (!(end >= static_cast<double>(begin)) || end > static_cast<double>(corners.size())) fail("wrong cell offsets");
       result.cells.push_back(static_cast<std::int64_t>(end) - static_cast<std::int64_t>(begin));
       for (; begin < static_cast<std::size_t>(end); ++begin) result.cells.push_back(toInteger(corners[begin]));
@@ -200,7 +199,7 @@ class XmlVtkReader {
     const std::string_view format = array.attribute("format").value();
     if (array && format != "ascii" && !format.empty()) fail("only arrays in ASCII can be read");
     std::string bad;
-    auto values = parseNumbers(array.child_value(), bad);
+    auto values = parseNumbers(array.child_value(), bad, m_stop);
     if (!values) fail("an array holds something that is not a finite number");
     return std::move(*values);
   }
@@ -214,6 +213,7 @@ class XmlVtkReader {
 
   std::filesystem::path m_path;
   XmlSurfaces m_surfaces;
+  const StopFlag* m_stop;
   pugi::xml_document m_document;
   Mesh m_mesh;
 };
@@ -225,7 +225,7 @@ Mesh readVtk(const std::filesystem::path& path, XmlSurfaces surfaces, const Stop
   std::string text = readText(path, stop);
   if (text.starts_with("# vtk DataFile")) return LegacyVtkReader(path, std::move(text), stop).read();
   if (std::string_view{text}.substr(0, kStart).find("<VTKFile") != std::string_view::npos)
-    return XmlVtkReader(path, text, surfaces).read(stop);
+    return XmlVtkReader(path, text, surfaces, stop).read();
   throw FileError(path, "this is no VTK file");
 }
 

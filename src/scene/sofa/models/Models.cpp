@@ -315,8 +315,8 @@ ModelDescription describeModel(Evaluation& evaluation, const Component& componen
   evaluation.scope().take(ReadScope::kBytesPerModel + 4 * model.path.size());
   if (model.active) describeElements(evaluation, component, model);
   if (model.active && model.elementCount() == 0) noteEmpty(evaluation, component);
-  const std::uint64_t points = model.positions.size();
-  evaluation.takePoints(component, points, 1 + model.elementCount() / std::max<std::uint64_t>(points, 1));
+  const auto points = std::max<std::uint64_t>(model.positions.size(), 1);
+  evaluation.takePoints(component, points, 1 + (model.elementCount() + points - 1) / points);
   return model;
 }
 
