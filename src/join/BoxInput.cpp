@@ -137,6 +137,33 @@ void BoxInput::readEachAs(std::uint64_t step, std::uint64_t most, Visitor visit)
   }
 }
 
+void BoxInput::forEachProbe(std::size_t count, Visitor visit) {
+  if (m_type.isFloat64) {
+    readProbesAs<double>(count, visit);
+  } else {
+    readProbesAs<float>(count, visit);
+  }
+}
+
+template <class Number>
+void BoxInput::readProbesAs(std::uint64_t count, Visitor visit) {
+  std::vector<Number> rows(6);
+  std::array<std::uint64_t, 2> read{};  // boxes of each set in the files before
+  std::array<std::uint64_t, 2> next{};  // the probe of each set
+  for (std::size_t k = 0; k < m_paths.size(); ++k) {
+    scene::BoxRows file = open(k);
+    const std::size_t set = setOf(k);
+    const std::uint64_t probes = std::min(count, m_setSizes[set]);
+    for (; next[set] < probes; ++next[set]) {
+      const std::uint64_t size = m_setSizes[set];
+      const std::uint64_t place = size / probes * next[set] + size % probes * next[set] / probes + size / probes / 2;
+      if (place >= read[set] + file.size()) break;
+      visit(readBlock(file, {set, read[set], place - read[set]}, rows));
+    }
+    read[set] += file.size();
+  }
+}
+
 std::span<const double> BoxInput::margins(std::size_t set, std::uint64_t begin) {
   const std::uint64_t count = std::min(kBlock, m_setSizes[set] - begin);
   m_values[set].readMargins(begin, static_cast<std::size_t>(count));

@@ -95,6 +95,10 @@ class BoxInput {
   /// About `count` boxes with their margins, spread over the files; all boxes if there are fewer.
   [[nodiscard]] BoxSample sample(std::size_t count);
 
+  /// Visits `count` boxes of each set one by one, with all they have; all of a set if there are fewer. They are the
+  /// middle of equal parts: the first and the last box are no likelier than others.
+  void forEachProbe(std::size_t count, Visitor visit);
+
   [[nodiscard]] bool hasMargins(std::size_t set) const noexcept { return m_values[set].hasMargins(); }
 
   /// The margins of some thousand boxes of a set that has them, from `begin` on; none at the end.
@@ -105,6 +109,8 @@ class BoxInput {
   void readEach(std::uint64_t step, std::uint64_t most, Visitor visit);
   template <class Number>
   void readEachAs(std::uint64_t step, std::uint64_t most, Visitor visit);
+  template <class Number>
+  void readProbesAs(std::uint64_t count, Visitor visit);
 
   /// Where boxes lie: from box `begin` of a file on, before which there are `before` boxes of its set.
   struct Place {

@@ -7,7 +7,6 @@
 #include <numeric>
 #include <utility>
 
-#include "PairRuns.h"
 #include "allpairs/Overlaps.h"
 #include "allpairs/StopFlag.h"
 
@@ -33,11 +32,6 @@ std::size_t cellsFor(std::uint64_t boxes, const Budget& budget) {
   return std::max(forMemory, forWorkers);
 }
 
-/// Whether the cells are those of a box in most of space, or it is a wide one.
-bool isLarge(const Division& division, std::span<const std::uint32_t> cells) {
-  return cells.front() == division.cells.size() || (cells.size() > 1 && cells.size() > division.cells.size() / 2);
-}
-
 }  // namespace
 
 std::uint64_t Division::records() const { return std::accumulate(counts.begin(), counts.end(), std::uint64_t{0}); }
@@ -51,15 +45,13 @@ std::uint64_t Division::countOf(std::size_t cell) const {
 }
 
 std::uint64_t Division::scratchBytes(std::size_t pairSize, std::size_t memory) const {
-  if (large == 0) return 0;
-  const std::uint64_t ofBox = std::min(pairs / large, std::max(sent[0], sent[1]));
-  const std::uint64_t ofRange = ofBox * largeInRange;
-  const std::uint64_t fit = memory / 4 * 3 / (pairSize + pairSize / 2);
-  return ((ofRange > fit ? ofRange : 0) + (ofBox > fit ? ofBox : 0)) * pairSize;
+  std::uint64_t most = 0;
+  for (const KeyLoad& load : loads) most = std::max(most, scratchBytesFor(load, pairSize, memory));
+  return most;
 }
 
 Divider::Divider(BoxInput& input, const JoinOptions& options, const Budget& budget)
-    : m_input(input), m_options(options), m_budget(budget) {}
+    : m_input(input), m_options(options), m_budget(budget), m_large(input, options) {}
 
 Division Divider::divide() {
   Division division;
@@ -78,7 +70,7 @@ Division Divider::divide() {
   division.cells = partition::Partition(sample.view(), cells, m_options.distance, m_options.stop);
   count(division);
   for (int round = 0; round < kRounds && cutFullCells(division, sample); ++round) count(division);
-  division.pairs = estimatePairs(division);
+  estimatePairs(division);
   return division;
 }
 
@@ -115,24 +107,20 @@ void Divider::count(Division& division) {
   division.empty = {};
   for (BoxSample& sample : m_evenSamples) sample = {.type = m_input.recordType()};
   m_evenNumbers = {};
-  const KeyRanges ranges = KeyRanges::of(0, m_input.size(0), false, kMostRanges);
-  std::vector<std::uint64_t> large(ranges.count());
+  m_large.restart(division.cells, division.partnerMargins);
   m_input.forEachBlock([&](const BoxBlock& block) {
     checkStop(m_options.stop);
     const std::uint64_t step = stepOf(block.set);
     division.empty[block.set].look(block.boxes, block.begin);
     visitCells(division, block, m_options, [&](std::size_t i, std::span<const std::uint32_t> cells) {
       ++division.sent[block.set];
-      if (block.set == 0 && isLarge(division, cells)) ++large[ranges.rangeOf(block.begin + i, 0)];
       for (const std::uint32_t cell : cells) ++division.counts[partOf(division.cells, block.set, cell)];
-      if ((block.begin + i) % step != 0) return;
+      if (m_large.take(block, i, cells) || (block.begin + i) % step != 0) return;
       m_evenSamples[block.set].add(block, i);
       m_evenNumbers[block.set].push_back(block.begin + i);
     });
     if (m_options.progress) m_options.progress({"counting", block.before + block.boxes.size(), m_input.size()});
   });
-  division.large = std::accumulate(large.begin(), large.end(), std::uint64_t{0});
-  division.largeInRange = large.empty() ? 0 : *std::max_element(large.begin(), large.end());
 }
 
 /// Returns whether anything was cut.
@@ -157,9 +145,16 @@ std::uint64_t Divider::stepOf(std::size_t set) const {
   return others <= 2 * own ? std::max(own, others) : own;
 }
 
+void Divider::estimatePairs(Division& division) const {
+  const double others = pairsOfOthers(division);
+  const double all = others + m_large.pairs(division.sent);
+  division.pairs = static_cast<std::uint64_t>(std::min(all, 0x1p63));  // billions of boxes in one place have more
+  division.loads = m_large.loads(division.sent, others);
+}
+
 /// From as few boxes of the sample as say enough: where each overlaps many, the pairs of all would take long. Boxes of
 /// two sets with the same number may be the same object, so that their pairs say nothing of those of other numbers.
-std::uint64_t Divider::estimatePairs(const Division& division) const {
+double Divider::pairsOfOthers(const Division& division) const {
   SamplePairs pairs;
   std::array<BoxSample, 2> parts;
   for (std::size_t step = 256; step > 0 && pairs.others < kEnoughPairs; step /= 4) {
@@ -179,13 +174,12 @@ std::uint64_t Divider::estimatePairs(const Division& division) const {
   }
   const bool isOneSet = m_input.sets() == 1;
   const auto shareOf = [&](std::size_t set, std::size_t less) {  // of how many boxes one of the sample stands for
-    const auto all = static_cast<double>(division.sent[set] - less);
+    const auto all = static_cast<double>(division.sent[set] - m_large.count(set) - less);
     return all / static_cast<double>(parts[set].boxes.size() - less);
   };
-  if (pairs.others + pairs.ofOneNumber == 0) return 0;
+  if (pairs.others + pairs.ofOneNumber == 0) return 0.0;
   const double share = shareOf(0, 0) * (isOneSet ? shareOf(0, 1) : shareOf(1, 0));
-  const double all = static_cast<double>(pairs.others) * share + static_cast<double>(pairs.ofOneNumber) * shareOf(0, 0);
-  return static_cast<std::uint64_t>(std::min(all, 0x1p63));  // of billions of boxes in one place there are more
+  return static_cast<double>(pairs.others) * share + static_cast<double>(pairs.ofOneNumber) * shareOf(0, 0);
 }
 
 Divider::SamplePairs Divider::pairsOf(std::span<const BoxSample> parts,

@@ -9,6 +9,8 @@
 
 #include "BoxInput.h"
 #include "Budget.h"
+#include "LargeBoxes.h"
+#include "PairMerge.h"
 #include "allpairs/Box.h"
 #include "allpairs/join/Join.h"
 #include "allpairs/partition/Partition.h"
@@ -28,9 +30,8 @@ struct Division {
   std::array<double, 2> partnerMargins{};  ///< The greatest margin of what a box of each set may be paired with.
   std::array<std::uint64_t, 2> sent{};     ///< Boxes of each set that go anywhere: none that is empty or left out.
   std::array<scene::EmptyBoxes, 2> empty{};
-  std::uint64_t pairs = 0;         ///< Estimated.
-  std::uint64_t large = 0;         ///< Boxes of the first set in more than half of the cells, and in more than one.
-  std::uint64_t largeInRange = 0;  ///< How many of them are in the range of numbers that has the most.
+  std::uint64_t pairs = 0;       ///< Estimated.
+  std::vector<KeyLoad> loads{};  ///< Likewise, of each range of first boxes.
 
   /// Boxes and their copies: what is written.
   [[nodiscard]] std::uint64_t records() const;
@@ -42,8 +43,8 @@ struct Division {
     return pairs < kMost / pairSize ? pairs * pairSize : kMost;
   }
 
-  /// What the pairs of a range of first boxes take once more where they do not fit in `memory` to be put in order,
-  /// estimated: large boxes have the most. Those of a box that do not fit by themselves take it twice.
+  /// What the copies of pairs that do not fit in `memory` take while they are put in order: those of the range of first
+  /// boxes that takes the most.
   [[nodiscard]] std::uint64_t scratchBytes(std::size_t pairSize, std::size_t memory) const;
 
   /// The boxes of all sets in a cell, or those that are wide.
@@ -67,7 +68,8 @@ class Divider {
   void count(Division& division);
   [[nodiscard]] BoxSample keptOf(const BoxSample& all) const;
   [[nodiscard]] bool cutFullCells(Division& division, const BoxSample& sample) const;
-  [[nodiscard]] std::uint64_t estimatePairs(const Division& division) const;
+  void estimatePairs(Division& division) const;
+  [[nodiscard]] double pairsOfOthers(const Division& division) const;
   /// Pairs of a sample: of two sets those of boxes with the same number, and others.
   struct SamplePairs {
     std::uint64_t others = 0;
@@ -80,7 +82,8 @@ class Divider {
   BoxInput& m_input;
   const JoinOptions& m_options;
   const Budget& m_budget;
-  std::array<BoxSample, 2> m_evenSamples;  ///< Boxes at equal distances in each set, taken while counting.
+  LargeBoxes m_large;
+  std::array<BoxSample, 2> m_evenSamples;  ///< Others at equal distances in each set, taken while counting.
   std::array<std::vector<std::uint64_t>, 2> m_evenNumbers;  ///< In their set.
 };
 

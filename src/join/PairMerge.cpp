@@ -23,13 +23,21 @@ void release(std::vector<T>& values) {
 
 /// Of a range that is divided: so many that one key seldom shares its part, and that what says where they begin takes
 /// little of the memory.
-std::size_t partsFor(std::size_t memory) {
-  return std::clamp<std::size_t>(memory / 2048, std::size_t{1} << 8, std::size_t{1} << 16);
+std::size_t partsFor(std::size_t memory) { return std::max(memory / 512, std::size_t{1} << 8); }
+
+/// Whether pairs can be put in order at once, by rows. Pairs as they are read and their seconds in order take three
+/// fourths of the memory, where each row begins the rest: one group may have the most pairs and another the most rows.
+bool fitByRows(std::uint64_t pairs, std::uint64_t begins, std::size_t pairSize, std::size_t memory) {
+  return pairs <= (memory - memory / 4) / (pairSize + pairSize / 2) && begins <= memory / 4 / sizeof(std::uint64_t);
 }
 
-/// Looks for a stop now and then: all values may be the partners of one box.
+/// Looks for a stop now and then where that takes long: all values may be the partners of one box.
 template <class Values, class Less>
 void sortUntil(const StopFlag* stop, const Values& values, const Less& less) {
+  if (values.size() < kBatch) {
+    std::sort(values.begin(), values.end(), less);
+    return;
+  }
   std::size_t compared = 0;
   std::sort(values.begin(), values.end(), [&](const auto& a, const auto& b) {
     if (++compared % kBatch == 0) checkStop(stop);
@@ -38,6 +46,21 @@ void sortUntil(const StopFlag* stop, const Values& values, const Less& less) {
 }
 
 }  // namespace
+
+/// As PairMerge divides.
+std::uint64_t scratchBytesFor(const KeyLoad& range, std::size_t pairSize, std::size_t memory) {
+  const std::uint64_t most = partsFor(memory);
+  std::uint64_t bytes = 0;
+  for (KeyLoad part = range; !fitByRows(part.pairs, part.keys + 1, pairSize, memory);) {
+    const std::uint64_t runs = part.pairs / std::max<std::size_t>(memory / 2 / pairSize, 1) + 1;
+    const std::uint64_t parts = part.keys <= 1 ? most : std::min(part.keys, most);
+    bytes += part.pairs * pairSize + runs * (parts + 1) * sizeof(std::uint64_t);
+    if (part.keys <= 1) break;  // its partners are all different, and fit when they are divided
+    part.keys = std::uint64_t{1} << KeyRanges::of(0, part.keys, false, most).shift;
+    part.pairs = std::min(part.pairs, part.longestRow * part.keys);
+  }
+  return bytes;
+}
 
 template <class Id>
 PairMerge<Id>::PairMerge(const KeyRanges& ranges, std::uint64_t boxes, std::size_t memory, const WorkFile& file,
@@ -110,13 +133,10 @@ std::uint64_t PairMerge<Id>::rowsOf(const Group& group) const {
   return m_ranges.isBySecond ? 0 : m_ranges.beginOf(group.end) - m_ranges.beginOf(group.begin) + 1;
 }
 
-/// Pairs as they are read and their seconds in order take three fourths of the memory, where each row begins the rest:
-/// one group may have the most pairs and another the most rows.
 template <class Id>
 bool PairMerge<Id>::fits(const Group& group) const {
-  const std::size_t forRows = m_ranges.isBySecond ? 0 : m_memory / 4;
-  return group.pairs <= (m_memory - forRows) / (sizeof(StoredPair<Id>) + sizeof(Id)) &&
-         rowsOf(group) <= forRows / sizeof(std::uint64_t);
+  if (m_ranges.isBySecond) return group.pairs <= m_memory / (sizeof(StoredPair<Id>) + sizeof(Id));
+  return fitByRows(group.pairs, rowsOf(group), sizeof(StoredPair<Id>), m_memory);
 }
 
 template <class Id>

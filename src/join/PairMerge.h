@@ -13,6 +13,16 @@
 
 namespace allpairs::join {
 
+/// Pairs of some keys that follow one another.
+struct KeyLoad {
+  std::uint64_t keys = 0;
+  std::uint64_t pairs = 0;
+  std::uint64_t longestRow = 0;  ///< The most pairs of one key, where that can be more than fit.
+};
+
+/// The bytes of the scratch files that a range of first boxes takes at most while it is put in order: none if it fits.
+[[nodiscard]] std::uint64_t scratchBytesFor(const KeyLoad& range, std::size_t pairSize, std::size_t memory);
+
 /// Puts the pairs of many runs in order, as many ranges of keys at once as fit in memory.
 template <class Id>
 class PairMerge {
@@ -21,7 +31,8 @@ class PairMerge {
 
   /// `file` has the runs; `boxes` is one more than the greatest number of a second box. A range that is too large by
   /// itself is divided again, by way of `scratch`, a file of its size, and what is too large in that by way of one
-  /// more. `stop` soon ends a merge, if it is given.
+  /// more: a range, and then one key of it. Where a range has more keys than a 512th of `memory` there is a third in
+  /// between, of several keys; see scratchBytesFor(). `stop` soon ends a merge, if it is given.
   PairMerge(const KeyRanges& ranges, std::uint64_t boxes, std::size_t memory, const WorkFile& file,
             std::filesystem::path scratch, const StopFlag* stop = nullptr);
 

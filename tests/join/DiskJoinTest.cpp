@@ -207,50 +207,111 @@ TEST(DiskJoin, ARangeOfManyPairsIsDividedWhole) {
   EXPECT_TRUE(found == expected);
 }
 
-/// Each is a copy of what is divided: the disk has to have room for all of them.
-TEST(DiskJoin, ARangeOfManyKeysAndOneWithMostOfThePairsIsDividedTwice) {
-  constexpr std::uint32_t kKeys = 1'000;
-  constexpr std::uint32_t kRow = 400'000;
+/// One row of `row` pairs among `keys` keys of five pairs each, put in order in 4 MB.
+struct DividedRange {
+  bool isOrdered = false;
+  std::uint64_t pairs = 0;
+  std::uint64_t scratchBytes = 0;  ///< At most at once.
+};
+
+DividedRange divideRange(std::uint32_t keys, std::uint32_t row) {
   const TempFolder folder;
-  const join::KeyRanges ranges = join::KeyRanges::of(0, kKeys, false, 1);
+  const join::KeyRanges ranges = join::KeyRanges::of(0, keys, false, 1);
   join::RunFile file{join::WorkFile(folder.path() / "pairs", join::WorkFile::Mode::Create)};
   join::RunWriter<std::uint32_t> writer(ranges, 100'000, file);
   std::vector<Pair> expected;
-  for (std::uint32_t key = 0; key < kKeys; ++key) {
-    const std::uint32_t pairs = key == 512 ? kRow : 5;
+  for (std::uint32_t key = 0; key < keys; ++key) {
+    const std::uint32_t pairs = key == 512 ? row : 5;
     for (std::uint32_t i = 0; i < pairs; ++i) expected.push_back({key, 2 * i});
   }
   for (auto pair = expected.rbegin(); pair != expected.rend(); ++pair) writer.add(pair->first, pair->second);
   std::vector<Pair> found;
-  std::uintmax_t most = 0;
-  join::PairMerge<std::uint32_t> merge(ranges, 2 * kRow, 4'000'000, file.file, folder.path() / "divided");
+  DividedRange result{.pairs = expected.size()};
+  join::PairMerge<std::uint32_t> merge(ranges, 2 * row, 4'000'000, file.file, folder.path() / "divided");
   merge.merge(writer.finish(), [&](std::span<const join::StoredPair<std::uint32_t>> batch) {
     for (const auto& pair : batch) found.push_back({pair.first, pair.second});
-    std::uintmax_t room = 0;
-    for (const auto& entry : std::filesystem::directory_iterator(folder.path())) room += entry.file_size();
-    most = std::max(most, room);
+    std::uint64_t room = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
+      if (entry.path().filename() != "pairs") room += entry.file_size();
+    }
+    result.scratchBytes = std::max(result.scratchBytes, room);
   });
-  EXPECT_TRUE(found == expected);
-  constexpr std::uintmax_t kPairs = sizeof(Pair) * (kRow + 5 * (kKeys - 1));
-  EXPECT_LT(most, kPairs * 32 / 10) << "pairs, a copy of the range, and one of the row";
+  result.isOrdered = found == expected;
+  return result;
 }
 
-TEST(DiskJoin, RoomToPutPairsInOrderIsThatOfTheRangeWithTheLargestBoxes) {
-  std::vector<Box> boxes = uniform(3'000);
-  const auto scratchOf = [](const std::vector<Box>& all, std::size_t memory) {
-    const JoinCase with(all);
-    const join::JoinOptions options = with.options();
-    join::Budget budget = tinyBudget();
-    budget.sampleBoxes = all.size();
-    join::BoxInput input(with.paths, options);
-    return join::Divider(input, options, budget).divide().scratchBytes(sizeof(Pair), memory);
-  };
-  EXPECT_EQ(scratchOf(boxes, 1'000), 0U) << "many small ranges";
-  boxes[0] = cube(-1, -1, -1, 30);
-  const std::uint64_t row = sizeof(Pair) * (boxes.size() - 1);
-  EXPECT_GE(scratchOf(boxes, 20'000), 2 * row) << "of the range, and of the row";
-  EXPECT_LE(scratchOf(boxes, 20'000), 2 * row + 100);
-  EXPECT_EQ(scratchOf(boxes, 100'000), 0U) << "it fits";
+/// Each is a copy of what is divided: the disk has to have room for all of them.
+TEST(DiskJoin, RangesOfManyKeysAndOneWithMostOfThePairsTakeTheScratchFilesThatAreCounted) {
+  constexpr std::uint32_t kRow = 400'000;
+  for (const std::uint32_t keys : {1U, 1'000U, 5'000U, 20'000U}) {
+    const DividedRange range = divideRange(keys, keys == 1 ? 5 : kRow);
+    EXPECT_TRUE(range.isOrdered) << keys;
+    const join::KeyLoad load{keys, range.pairs, kRow};
+    const std::uint64_t counted = join::scratchBytesFor(load, sizeof(Pair), 4'000'000);
+    EXPECT_LE(range.scratchBytes, counted) << keys;
+    EXPECT_LE(counted, range.scratchBytes * 11 / 10) << keys;
+    const std::uint64_t copies = keys == 1 ? 0 : keys <= 5'000 ? 2 : 3;
+    EXPECT_LE(counted, sizeof(Pair) * range.pairs * copies * 11 / 10) << keys;
+  }
+}
+
+/// What is expected of a join, which is cut into cells of so many boxes, and how many pairs it has.
+struct PlannedRoom {
+  double pairs = 0;
+  double found = 0;
+  std::uint64_t scratchBytes = 0;
+};
+
+PlannedRoom planOf(JoinCase& with, std::size_t cellBoxes = 200) {
+  const join::JoinOptions options = with.options();
+  join::Budget budget = tinyBudget();
+  budget.cellBoxes = cellBoxes;
+  join::BoxInput input(with.paths, options);
+  const join::Division division = join::Divider(input, options, budget).divide();
+  return {static_cast<double>(division.pairs), static_cast<double>(with.count(options)),
+          division.scratchBytes(sizeof(Pair), 20'000)};
+}
+
+/// The sample has every 21st box: that at 0, and none of the others.
+TEST(DiskJoin, TheRoomForPairsAndToPutThemInOrderIsCountedWhereASampleHasNoLargeBox) {
+  const std::vector<Box> boxes = uniform(6'000);
+  for (const std::size_t cellBoxes : {200U, 100'000U}) {
+    JoinCase none(boxes);
+    EXPECT_EQ(planOf(none, cellBoxes).scratchBytes, 0U);
+    for (const std::size_t place : {0U, 1U, 2'999U, 5'000U, 5'999U}) {
+      std::vector<Box> all = boxes;
+      all[place] = cube(-1, -1, -1, 30);
+      JoinCase with(all);
+      const PlannedRoom room = planOf(with, cellBoxes);
+      EXPECT_NEAR(room.pairs, room.found, 0.1 * room.found) << place;
+      // A row of 1,250 pairs fits. All others are copied twice: with the range, and then by themselves.
+      const std::uint64_t row = boxes.size() - 1 - place;
+      const std::uint64_t copied = row > 1'250 ? 2 * sizeof(Pair) * row : 0;
+      EXPECT_GE(room.scratchBytes, copied) << place;
+      EXPECT_LE(room.scratchBytes, copied * 12 / 10) << place;
+    }
+  }
+}
+
+TEST(DiskJoin, LargeBoxesOfTwoSetsAndManyOfThemAreEstimatedToo) {
+  std::vector<Box> many = uniform(3'000);
+  for (std::size_t i = 0; i < many.size(); i += 50) many[i] = cube(-1, -1, -1, 30);
+  std::vector<Box> crowd = uniform(3'000);
+  for (std::size_t i = 0; i < crowd.size(); i += 3) crowd[i] = {{1, 1, 1}, {14, 14, 14}};
+  for (const std::vector<Box>& boxes : {many, crowd}) {
+    JoinCase one(boxes);
+    PlannedRoom room = planOf(one);
+    EXPECT_NEAR(room.pairs, room.found, 0.1 * room.found);
+    JoinCase two(boxes);
+    two.addSecond(uniform(2'000));
+    room = planOf(two);
+    EXPECT_NEAR(room.pairs, room.found, 0.1 * room.found);
+    JoinCase other(uniform(2'000));
+    other.addSecond(boxes);
+    room = planOf(other);
+    EXPECT_NEAR(room.pairs, room.found, 0.1 * room.found);
+    EXPECT_EQ(room.scratchBytes, 0U) << "they are the second";
+  }
 }
 
 /// The disk may give back other bytes than were written.
