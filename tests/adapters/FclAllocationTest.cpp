@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a narrow phase asks for does not grow with the pairs of parts, or of points and triangles, that it has to think of.
+// What a narrow phase asks for does not grow with the pairs of parts, or of points and triangles, that it has to think
+// of.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -11,6 +12,7 @@
 
 #include "FclExamine.h"
 #include "Shapes.h"
+#include "allpairs/collision/CapsuleModel.h"
 #include "allpairs/collision/SphereModel.h"
 #include "support/AllocationCount.h"
 
@@ -33,6 +35,17 @@ std::unique_ptr<collision::SphereModel> lattice(std::size_t side, const Vec3& at
     centres.push_back({at[0] + 10.0 * double(i % side), at[1] + 10.0 * double(i / side), at[2]});
   }
   return std::make_unique<collision::SphereModel>("lattice", centres, std::vector<double>(), 1.0);
+}
+
+/// Thin capsules above each other, each along the diagonal: from another such bundle they are further apart than their
+/// boxes.
+std::unique_ptr<collision::CapsuleModel> bundle(std::size_t count, double x) {
+  std::vector<collision::Capsule> capsules;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double z = 0.01 * double(i);
+    capsules.push_back({{x, 0.0, z}, {x + 100.0, 100.0, z}, 0.001});
+  }
+  return std::make_unique<collision::CapsuleModel>("bundle", capsules);
 }
 
 /// A thin rod through the origin along the diagonal, or the one mirrored in z, of so many sides, each as long as it is.
@@ -67,6 +80,14 @@ TEST(FclAllocation, OfModelsOfManyPartsIsNoListOfAllPairs) {
   EXPECT_EQ(examine(*first, *above).distance, 498.0);
   EXPECT_LT(bytesOf(*first, *apart), 20 * kMegabyte);
   EXPECT_LT(bytesOf(*first, *above), 20 * kMegabyte);
+}
+
+TEST(FclAllocation, OfPartsThatAreFurtherApartThanTheirBoxesIsOneLookAtEachTwo) {
+  constexpr std::size_t kCount = 700;
+  constexpr std::size_t kMostOfALook = 64;
+  const auto first = bundle(kCount, 0.0);
+  const auto second = bundle(kCount, 101.0);
+  EXPECT_LT(bytesOf(*first, *second), kCount * kCount * kMostOfALook);
 }
 
 TEST(FclAllocation, OfLongTrianglesIsNoListOfAllWithAllPointsOfTheOther) {

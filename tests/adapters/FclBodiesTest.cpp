@@ -90,6 +90,45 @@ TEST(FclBodies, OfManyPartsTheNearestIsThatOfEachTwoAlone) {
   }
 }
 
+/// Points in the places of a row, as capsules.
+std::vector<collision::Capsule> row(std::size_t count, const Vec3& from) {
+  std::vector<collision::Capsule> capsules;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Vec3 at{from[0], from[1] + 3.0 * double(i), from[2]};
+    capsules.push_back({at, at, 0.0});
+  }
+  return capsules;
+}
+
+TEST(FclBodies, OfManyPartsThatAreAsFarAsEachOtherTheFirstAreReported) {
+  CapsuleModel few("few", row(70, {0, 0, 0}));
+  CapsuleModel many("many", row(90, {0, -30, 5}));
+  const ExactPair pair = examine(few, many);
+  EXPECT_EQ(pair.pointOnFirst, (Vec3{0, 0, 0}));
+  EXPECT_EQ(pair.pointOnSecond, (Vec3{0, 0, 5}));
+  const ExactPair swapped = examine(many, few);
+  EXPECT_EQ(swapped.pointOnFirst, (Vec3{0, 0, 5}));
+  EXPECT_EQ(swapped.pointOnSecond, (Vec3{0, 0, 0}));
+}
+
+TEST(FclBodies, OfManyPartsOneWithVolumeGivesADepthWhereItsBoxIsNearerThanWhatTouches) {
+  ExactOptions options;
+  options.tolerance = 0.01;
+  for (const bool isThick : {true, false}) {
+    auto low = row(70, {20, 0, 0});
+    auto high = row(70, {20, 0, 40});
+    low.front() = {{0, 0, 0}, {10, 10, 0}, isThick ? 0.1 : 0.0};
+    high.front() = {{10.15, 0, 0}, {10.15, 0, 0}, 0.0};
+    high.back() = low.back();
+    high.back().begin[2] = high.back().end[2] = 0.2;
+    CapsuleModel first("first", low);
+    CapsuleModel second("second", high);
+    const ExactPair pair = examine(first, second, options);
+    EXPECT_EQ(pair.state, ExactState::Touching);
+    EXPECT_EQ(pair.depth.has_value(), isThick);
+  }
+}
+
 TEST(FclBodies, OneThatHasVolumeGivesTheDepthAPlace) {
   SphereModel first("first", {{0, 0, 0}, {10, 0, 0}}, {1.0, 0.0});
   SphereModel second("second", {{0, 0, 1.5}, {10, 0, 0}}, {1.0, 0.0});

@@ -10,6 +10,7 @@
 
 #include "Enclosure.h"
 #include "ExactBody.h"
+#include "LooksInOrder.h"
 #include "Meeting.h"
 #include "PartSearch.h"
 #include "allpairs/Error.h"
@@ -19,6 +20,7 @@ namespace {
 
 using exact::ExactBody;
 using exact::ExactPart;
+using exact::LooksInOrder;
 using exact::Meeting;
 using exact::PartPair;
 using exact::PartSearch;
@@ -98,8 +100,8 @@ class PairReport {
                        [this](const auto& part) { return m_within.count(part.get()) != 0; });
   }
 
-  /// Whether a part lies within the box of an open surface, of which nobody can tell the inside. The boxes meet, so that
-  /// all such parts are added.
+  /// Whether a part lies within the box of an open surface, of which nobody can tell the inside. The boxes meet, so
+  /// that all such parts are added.
   static bool mayHold(const ExactPart& outer, const ExactPart& inner) {
     return outer.isOpen() && exact::holds(outer.box(), inner.box(), -inner.radius());
   }
@@ -133,23 +135,6 @@ void reportSame(const ExactBody& body, ExactPair& pair) {
   for (std::size_t axis = 0; axis < 3; ++axis)
     pair.pointOnFirst[axis] = pair.contactBox.min[axis] / 2.0 + pair.contactBox.max[axis] / 2.0;
   pair.pointOnSecond = pair.pointOnFirst;
-}
-
-/// Looks at parts whose boxes are apart, nearer ones first, until no more can change what is reported.
-void lookAtApart(PartSearch& search, const PairReport& report, FunctionRef<void(const PartPair&)> look) {
-  PartPair last;
-  double limit = std::min(report.limit(), search.likelyLimit());
-  while (true) {
-    const std::vector<PartPair> pairs = search.after(last, limit);
-    for (const PartPair& parts : pairs) {
-      if (parts.distance > report.limit()) return;
-      look(parts);
-    }
-    if (!pairs.empty()) last = pairs.back();
-    if (pairs.size() >= PartSearch::kMost) continue;  // perhaps not all within the limit
-    if (report.limit() <= limit) return;
-    limit = report.limit();
-  }
 }
 
 bool isAnyOpen(const ExactBody& body) {
@@ -191,14 +176,22 @@ struct FclNarrowPhase::State {
                                        std::max(options.duplicateTolerance * extent, rounding)};
     if (exact::areSame(first, second, tolerances.same)) return reportSame(first, pair);
     PairReport report(pair, options);
-    const auto look = [&](const PartPair& parts) {
-      const ExactPart& a = *first.parts[parts.first];
-      const ExactPart& b = *second.parts[parts.second];
-      report.add(a, b, exact::meet(a, b, tolerances));
+    const auto meetingOf = [&](const PartPair& parts) {
+      return exact::meet(*first.parts[parts.first], *second.parts[parts.second], tolerances);
     };
-    PartSearch search(first, second);
-    search.visitMeeting(look);
-    if (report.limit() > 0.0) lookAtApart(search, report, look);
+    const auto add = [&](const PartPair& parts, Meeting meeting) {
+      report.add(*first.parts[parts.first], *second.parts[parts.second], std::move(meeting));
+    };
+    const PartSearch search(first, second);
+    search.visitMeeting([&](const PartPair& parts) { add(parts, meetingOf(parts)); });
+    if (report.limit() > 0.0) {
+      LooksInOrder looks(search, report.limit(), tolerances.meeting);
+      search.visitApart(report.limit(), [&](const PartPair& parts) { return looks.add(parts, meetingOf(parts)); });
+      for (auto& [parts, meeting] : looks.take()) {
+        if (parts.distance > report.limit()) break;
+        add(parts, std::move(meeting));
+      }
+    }
     report.finish(first, second);
   }
 };

@@ -5,12 +5,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <memory>
-#include <vector>
 
 #include "ExactBody.h"
 #include "allpairs/FunctionRef.h"
-#include "allpairs/World.h"
 
 namespace allpairs::exact {
 
@@ -23,7 +20,7 @@ struct PartPair {
   friend auto operator<=>(const PartPair&, const PartPair&) = default;
 };
 
-/// Finds the parts of two bodies that are near each other, in memory that does not grow with the number of pairs.
+/// Finds the parts of two bodies that are near each other, in memory that grows with the parts and not with the pairs.
 class PartSearch {
  public:
   PartSearch(const ExactBody& first, const ExactBody& second) : m_first(first), m_second(second) {}
@@ -31,23 +28,19 @@ class PartSearch {
   /// Passes all pairs whose boxes meet, radii included, by ascending numbers.
   void visitMeeting(FunctionRef<void(const PartPair&)> visitor) const;
 
-  /// Of the pairs that are no further apart, the nearest that come after `last`, in order: all of them if fewer than
-  /// kMost.
-  [[nodiscard]] std::vector<PartPair> after(const PartPair& last, double limit);
+  /// Passes pairs whose boxes are apart, each once, near ones early: at least those that are no further apart than
+  /// withRounding() of what `visitor` returned last, which never grows.
+  void visitApart(double within, FunctionRef<double(const PartPair&)> visitor) const;
 
-  /// As far apart as a pair that is among the nearest of those that are apart; infinite where all pairs are few.
-  [[nodiscard]] double likelyLimit();
-
-  static constexpr std::size_t kMost = std::size_t{1} << 17;
+  /// A distance of parts and one of their boxes that are the same but for rounding differ by less than is added here.
+  [[nodiscard]] double withRounding(double distance) const;
 
  private:
   [[nodiscard]] double distanceOf(std::size_t first, std::size_t second) const;
-  [[nodiscard]] std::vector<Neighbor> nearest(std::size_t first, std::size_t count);
-  [[nodiscard]] std::vector<Neighbor> allWithin(std::size_t first, double limit);
+  void visitFewApart(double within, FunctionRef<double(const PartPair&)> visitor) const;
 
   const ExactBody& m_first;
   const ExactBody& m_second;
-  std::unique_ptr<World> m_world;  ///< Of the boxes of the second's parts, by their numbers; made when it is needed.
 };
 
 /// Whether each part of one body is there in the other as well.
