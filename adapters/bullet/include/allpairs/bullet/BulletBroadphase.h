@@ -43,10 +43,10 @@ namespace allpairs {
 ///            in double.
 /// Order:     pairs are in the order in which the cache got them, so that two runs with the same calls give the same.
 ///            With BulletBroadphaseOptions::number the order does not depend on earlier calls either.
-/// Bad input: a proxy's box with a NaN throws InvalidBox; a number that is negative or taken, a number with a pairCache,
-///            and a characterMargin that is negative or not finite, InvalidArgument. The call then has no effect; a btCollisionWorld whose addCollisionObject()
-///            made it has the object in its list already, without a proxy: remove it from the world before the next
-///            step.
+/// Bad input: a proxy's box with a NaN throws InvalidBox; a number that is negative or taken, a number with a
+///            pairCache, and a characterMargin that is negative or not finite, InvalidArgument. The call then has no
+///            effect; a btCollisionWorld whose addCollisionObject() made it has the object in its list already,
+///            without a proxy: remove it from the world before the next step.
 /// Cost:      a step of allpairs::World, Bullet's own for each pair that begins or ends, and a pass over the proxies;
 ///            one over the cache if it is the user's, or was changed from outside. setAabb() with the same box costs
 ///            nothing, unless the proxy's pairs are added at once.
