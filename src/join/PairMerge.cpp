@@ -13,7 +13,7 @@
 namespace allpairs::join {
 namespace {
 
-constexpr std::size_t kBatch = std::size_t{1} << 16;                // pairs between two looks for a stop
+constexpr std::size_t kBetweenLooks = std::size_t{1} << 16;         // pairs between two looks for a stop
 constexpr const char* kOtherRanges = "is damaged: a run's ranges";  // from one reading to the next, also
 
 template <class T>
@@ -34,13 +34,13 @@ bool fitByRows(std::uint64_t pairs, std::uint64_t begins, std::size_t pairSize, 
 /// Looks for a stop now and then where that takes long: all values may be the partners of one box.
 template <class Values, class Less>
 void sortUntil(const StopFlag* stop, const Values& values, const Less& less) {
-  if (values.size() < kBatch) {
+  if (values.size() < kBetweenLooks) {
     std::sort(values.begin(), values.end(), less);
     return;
   }
   std::size_t compared = 0;
   std::sort(values.begin(), values.end(), [&](const auto& a, const auto& b) {
-    if (++compared % kBatch == 0) checkStop(stop);
+    if (++compared % kBetweenLooks == 0) checkStop(stop);
     return less(a, b);
   });
 }
@@ -169,7 +169,7 @@ void PairMerge<Id>::readGroup(std::span<const Run> runs, const Group& group) {
     if (count > group.pairs - m_pairs.size()) throw FileError(m_file.path(), kOtherRanges);
     while (count > 0) {
       checkStop(m_stop);
-      const auto part = static_cast<std::size_t>(std::min<std::uint64_t>(count, kBatch));
+      const auto part = static_cast<std::size_t>(std::min<std::uint64_t>(count, kBetweenLooks));
       m_pairs.resize(m_pairs.size() + part);
       m_file.read(position, m_pairs.data() + (m_pairs.size() - part), part * sizeof(StoredPair<Id>));
       position += part * sizeof(StoredPair<Id>);
@@ -183,9 +183,9 @@ void PairMerge<Id>::readGroup(std::span<const Run> runs, const Group& group) {
 template <class Id>
 template <class Use>
 void PairMerge<Id>::forEachBatch(const Use& use) const {
-  for (std::size_t begin = 0; begin < m_pairs.size(); begin += kBatch) {
+  for (std::size_t begin = 0; begin < m_pairs.size(); begin += kBetweenLooks) {
     checkStop(m_stop);
-    use(std::span(m_pairs).subspan(begin, std::min(kBatch, m_pairs.size() - begin)));
+    use(std::span(m_pairs).subspan(begin, std::min(kBetweenLooks, m_pairs.size() - begin)));
   }
 }
 
@@ -211,7 +211,7 @@ void PairMerge<Id>::giveRows(std::uint64_t firstKey, std::uint64_t endKey, Recei
   for (std::size_t row = 0; row < rows; ++row) {
     if (begin >= next) {
       checkStop(m_stop);
-      next = begin + kBatch;
+      next = begin + kBetweenLooks;
     }
     const auto end = static_cast<std::size_t>(m_begins[row]);
     sortUntil(m_stop, std::span(m_seconds).subspan(begin, end - begin), std::less<>());
@@ -243,11 +243,11 @@ void PairMerge<Id>::divideRange(std::span<const Run> runs, std::size_t range, Re
   std::vector<Run> divided;
   {
     RunWriter<Id> writer(parts, m_memory / (2 * sizeof(StoredPair<Id>)), file, m_stop);
-    m_batch.resize(kBatch);
+    m_batch.resize(kBetweenLooks);
     forEachPart(runs, range, range + 1, [&](std::uint64_t position, std::uint64_t count) {
       while (count > 0) {
         checkStop(m_stop);
-        const auto part = static_cast<std::size_t>(std::min<std::uint64_t>(count, kBatch));
+        const auto part = static_cast<std::size_t>(std::min<std::uint64_t>(count, kBetweenLooks));
         m_file.read(position, m_batch.data(), part * sizeof(StoredPair<Id>));
         for (std::size_t i = 0; i < part; ++i) writer.add(m_batch[i].first, m_batch[i].second);
         position += part * sizeof(StoredPair<Id>);
