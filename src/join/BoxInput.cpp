@@ -155,8 +155,13 @@ void BoxInput::readProbesAs(std::uint64_t count, Visitor visit) {
     const std::size_t set = setOf(k);
     const std::uint64_t probes = std::min(count, m_setSizes[set]);
     for (; next[set] < probes; ++next[set]) {
-      const std::uint64_t size = m_setSizes[set];
-      const std::uint64_t place = size / probes * next[set] + size % probes * next[set] / probes + size / probes / 2;
+      const auto partBegin = [&](std::uint64_t part) {
+        return m_setSizes[set] / probes * part + m_setSizes[set] % probes * part / probes;
+      };
+      const std::uint64_t begin = partBegin(next[set]);
+      // Multiples of the golden ratio, in 64 bits.
+      const std::uint64_t place =
+          begin + ((next[set] + 1) * 0x9E3779B97F4A7C15ULL >> 20U) % (partBegin(next[set] + 1) - begin);
       if (place >= read[set] + file.size()) break;
       visit(readBlock(file, {set, read[set], place - read[set]}, rows));
     }

@@ -95,8 +95,8 @@ class BoxInput {
   /// About `count` boxes with their margins, spread over the files; all boxes if there are fewer.
   [[nodiscard]] BoxSample sample(std::size_t count);
 
-  /// Visits `count` boxes of each set one by one, with all they have; all of a set if there are fewer. They are the
-  /// middle of equal parts: the first and the last box are no likelier than others.
+  /// Visits `count` boxes of each set one by one, with all they have; all of a set if there are fewer. Each is
+  /// somewhere in one of as many equal parts, so that in a grid they are not all of one row or plane.
   void forEachProbe(std::size_t count, Visitor visit);
 
   [[nodiscard]] bool hasMargins(std::size_t set) const noexcept { return m_values[set].hasMargins(); }

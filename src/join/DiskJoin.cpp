@@ -239,14 +239,14 @@ void DiskJoin::requireRoom(const Division& division) const {
   const std::uint64_t boxes = division.records() * recordType().size();
   const std::uint64_t pairs = m_manifest.isCount ? 0 : division.pairBytes(pairSize());
   const std::uint64_t scratch = m_manifest.isCount ? 0 : division.scratchBytes(pairSize(), m_budget.mergeBytes);
-  std::string found =
+  const std::string found =
       " left, and this join needs " + megabytes(boxes) + " for boxes and about " + megabytes(pairs) + " for pairs";
-  if (scratch != 0) found += ", " + megabytes(scratch) + " to put them in order";
+  const std::string order = scratch == 0 ? "" : ", and " + megabytes(scratch) + " to put them in order";
   const std::optional<fs::path> output = folderOf(m_options.output);
   if (output && isOnDiskOf(*output, m_options.work)) {
-    requireRoomIn(m_options.work, boxes + 2 * pairs + scratch, found + ", and as much for the result");
+    requireRoomIn(m_options.work, boxes + 2 * pairs + scratch, found + ", as much for the result" + order);
   } else {
-    requireRoomIn(m_options.work, boxes + pairs + scratch, found);
+    requireRoomIn(m_options.work, boxes + pairs + scratch, found + order);
     if (output) requireRoomIn(*output, pairs, " left, and the result needs about " + megabytes(pairs));
   }
 }

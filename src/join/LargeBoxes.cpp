@@ -15,7 +15,7 @@ constexpr std::size_t kFirstProbes = 64;  // after which most boxes are known no
 constexpr std::size_t kPart = 16;         // a large box overlaps at least this part of them
 constexpr double kUnusual = 4.0;          // times the usual size
 
-/// The length of its sides.
+/// The length of its sides, with the margins; infinite, or a NaN, if its bounds are.
 double sizeOf(const BoxBlock& block, std::size_t i) {
   const Box& box = block.boxes[i];
   double size = 6.0 * block.boxes.margin(i);
@@ -45,7 +45,10 @@ LargeBoxes::LargeBoxes(BoxInput& input, const JoinOptions& options)
   for (Probes& probes : m_probes) {
     probes.block = probes.boxes.block();
     std::vector<double> sizes;
-    for (std::size_t i = 0; i < probes.numbers.size(); ++i) sizes.push_back(sizeOf(probes.block, i));
+    for (std::size_t i = 0; i < probes.numbers.size(); ++i) {
+      const double size = sizeOf(probes.block, i);
+      if (std::isfinite(size)) sizes.push_back(size);
+    }
     if (sizes.empty()) continue;
     const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
     std::nth_element(sizes.begin(), middle, sizes.end());

@@ -47,7 +47,7 @@ class LargeBoxes {
     std::vector<std::uint64_t> numbers{};
     std::vector<unsigned char> areLarge{};
   };
-  /// What a box overlaps of the probes that are not large, and of those that are: a one for all.
+  /// What a box overlaps of the probes that are not large, and of those that are: 1.0 is all.
   struct Shares {
     double small = 0.0;
     double large = 0.0;

@@ -45,10 +45,24 @@ void sortUntil(const StopFlag* stop, const Values& values, const Less& less) {
   });
 }
 
+/// Removes a file in the end, also after an error: its room may be what was wanting. What stays goes with the folder.
+struct RemovedAfter {
+  const std::filesystem::path& path;
+
+  explicit RemovedAfter(const std::filesystem::path& file) : path(file) {}
+  RemovedAfter(const RemovedAfter&) = delete;
+  RemovedAfter& operator=(const RemovedAfter&) = delete;
+  ~RemovedAfter() {
+    std::error_code ignored;
+    std::filesystem::remove(path, ignored);
+  }
+};
+
 }  // namespace
 
-/// As PairMerge divides.
+/// As PairMerge divides, which passes over a range without pairs.
 std::uint64_t scratchBytesFor(const KeyLoad& range, std::size_t pairSize, std::size_t memory) {
+  if (range.pairs == 0) return 0;
   const std::uint64_t most = partsFor(memory);
   std::uint64_t bytes = 0;
   for (KeyLoad part = range; !fitByRows(part.pairs, part.keys + 1, pairSize, memory);) {
@@ -239,6 +253,7 @@ void PairMerge<Id>::divideRange(std::span<const Run> runs, std::size_t range, Re
   release(m_pairs);
   release(m_seconds);
   release(m_begins);
+  const RemovedAfter removed{m_scratch};
   RunFile file{WorkFile(m_scratch, WorkFile::Mode::Create)};
   std::vector<Run> divided;
   {
@@ -258,8 +273,6 @@ void PairMerge<Id>::divideRange(std::span<const Run> runs, std::size_t range, Re
   }
   PairMerge inner(parts, m_boxes, m_memory, file.file, m_scratch.string() + "-", m_stop);
   inner.merge(divided, receive);
-  std::error_code ignored;  // what stays goes with the folder
-  std::filesystem::remove(m_scratch, ignored);
 }
 
 template class PairMerge<std::uint32_t>;

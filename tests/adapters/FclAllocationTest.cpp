@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a narrow phase asks for does not grow with the pairs of parts, or of points and triangles, that it has to think
-// of.
+// What a narrow phase asks for does not grow with the pairs of parts that are apart, or with those of points and
+// triangles, that it has to think of.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -314,6 +314,19 @@ TEST(DiskJoin, LargeBoxesOfTwoSetsAndManyOfThemAreEstimatedToo) {
   }
 }
 
+/// Probes at equal distances would all be in the first plane.
+TEST(DiskJoin, ALargeBoxIsEstimatedByBoxesInAllOfAGrid) {
+  std::vector<Box> boxes;
+  for (std::size_t i = 0; i < 32'768; ++i) {
+    boxes.push_back(
+        cube(static_cast<double>(i % 32), static_cast<double>(i / 32 % 32), static_cast<double>(i / 1024), 0.4));
+  }
+  boxes[1] = {{15.5, -1, -1}, {33, 33, 33}};
+  JoinCase with(boxes);
+  const PlannedRoom room = planOf(with, 100'000);
+  EXPECT_NEAR(room.pairs, room.found, 0.2 * room.found);
+}
+
 /// The disk may give back other bytes than were written.
 TEST(DiskJoin, BoxesThatAreNotOfTheJoinAndRangesThatAreNoneAreErrors) {
   const TempFolder folder;

@@ -33,7 +33,7 @@ class LooksInOrder {
   const PartSearch& m_search;
   double m_tolerance;
   double m_within;
-  std::map<PartPair, Meeting> m_nearest;  ///< By ascending numbers, each nearer than the one before.
+  std::map<PartPair, Meeting> m_nearest;  ///< In their order, each nearer than the one before.
   std::map<PartPair, Meeting> m_thick;    ///< The first that has a volume: where any meet, they have a depth then.
 };
 
