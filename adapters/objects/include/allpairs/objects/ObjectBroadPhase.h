@@ -428,7 +428,9 @@ class ObjectBroadPhase {
   static double magnitude(const Bounds& bounds) {
     double most = 0.0;
     for (int axis = 0; axis < 3; ++axis) {
-      most = std::max({most, magnitude(bounds.min_[axis]), magnitude(bounds.max_[axis])});
+      for (const S bound : {bounds.min_[axis], bounds.max_[axis]}) {
+        most = std::max(most, magnitude(static_cast<double>(bound)));
+      }
     }
     return most;
   }
