@@ -181,14 +181,11 @@ void PairMerge<Id>::readGroup(std::span<const Run> runs, const Group& group) {
   m_pairs.clear();
   forEachPart(runs, group.begin, group.end, [&](std::uint64_t position, std::uint64_t count) {
     if (count > group.pairs - m_pairs.size()) throw FileError(m_file.path(), kOtherRanges);
-    while (count > 0) {
-      checkStop(m_stop);
-      const auto part = static_cast<std::size_t>(std::min<std::uint64_t>(count, kBetweenLooks));
-      m_pairs.resize(m_pairs.size() + part);
-      m_file.read(position, m_pairs.data() + (m_pairs.size() - part), part * sizeof(StoredPair<Id>));
-      position += part * sizeof(StoredPair<Id>);
-      count -= part;
-    }
+    inBatches(static_cast<std::size_t>(count), m_stop, [&](std::size_t begin, std::size_t end) {
+      const std::size_t before = m_pairs.size();
+      m_pairs.resize(before + (end - begin));
+      m_file.read(position + begin * sizeof(StoredPair<Id>), &m_pairs[before], (end - begin) * sizeof(StoredPair<Id>));
+    });
   });
   if (m_pairs.size() != group.pairs) throw FileError(m_file.path(), kOtherRanges);
 }
@@ -197,10 +194,8 @@ void PairMerge<Id>::readGroup(std::span<const Run> runs, const Group& group) {
 template <class Id>
 template <class Use>
 void PairMerge<Id>::forEachBatch(const Use& use) const {
-  for (std::size_t begin = 0; begin < m_pairs.size(); begin += kBetweenLooks) {
-    checkStop(m_stop);
-    use(std::span(m_pairs).subspan(begin, std::min(kBetweenLooks, m_pairs.size() - begin)));
-  }
+  inBatches(m_pairs.size(), m_stop,
+            [&](std::size_t begin, std::size_t end) { use(std::span(m_pairs).subspan(begin, end - begin)); });
 }
 
 /// Rows by counting; each row is sorted by itself.
@@ -258,16 +253,12 @@ void PairMerge<Id>::divideRange(std::span<const Run> runs, std::size_t range, Re
   std::vector<Run> divided;
   {
     RunWriter<Id> writer(parts, m_memory / (2 * sizeof(StoredPair<Id>)), file, m_stop);
-    m_batch.resize(kBetweenLooks);
     forEachPart(runs, range, range + 1, [&](std::uint64_t position, std::uint64_t count) {
-      while (count > 0) {
-        checkStop(m_stop);
-        const auto part = static_cast<std::size_t>(std::min<std::uint64_t>(count, kBetweenLooks));
-        m_file.read(position, m_batch.data(), part * sizeof(StoredPair<Id>));
-        for (std::size_t i = 0; i < part; ++i) writer.add(m_batch[i].first, m_batch[i].second);
-        position += part * sizeof(StoredPair<Id>);
-        count -= part;
-      }
+      inBatches(static_cast<std::size_t>(count), m_stop, [&](std::size_t from, std::size_t to) {
+        m_batch.resize(to - from);
+        m_file.read(position + from * sizeof(StoredPair<Id>), m_batch.data(), m_batch.size() * sizeof(StoredPair<Id>));
+        for (const StoredPair<Id>& pair : m_batch) writer.add(pair.first, pair.second);
+      });
     });
     divided = writer.finish();
   }

@@ -29,22 +29,11 @@ std::vector<Run> RunWriter<Id>::finish() {
   return std::exchange(m_runs, {});
 }
 
-/// Calls use(begin, end) for some pairs at a time.
-template <class Id>
-template <class Use>
-void RunWriter<Id>::forEachBatch(const Use& use) const {
-  constexpr std::size_t kBatch = std::size_t{1} << 16;
-  for (std::size_t begin = 0; begin < m_found.size(); begin += kBatch) {
-    checkStop(m_stop);
-    use(begin, std::min(begin + kBatch, m_found.size()));
-  }
-}
-
 template <class Id>
 void RunWriter<Id>::flush() {
   m_begins.assign(m_ranges.count() + 1, 0);
   m_grouped.clear();
-  forEachBatch([&](std::size_t begin, std::size_t end) {
+  inBatches(m_found.size(), m_stop, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const StoredPair<Id>& pair = m_found[i];
       const std::uint64_t key = m_ranges.isBySecond ? pair.second : pair.first;
@@ -54,7 +43,7 @@ void RunWriter<Id>::flush() {
     m_grouped.resize(end);
   });
   std::exclusive_scan(m_begins.begin(), m_begins.end(), m_begins.begin(), std::uint64_t{0});
-  forEachBatch([&](std::size_t begin, std::size_t end) {
+  inBatches(m_found.size(), m_stop, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       m_grouped[m_begins[m_ranges.rangeOf(m_found[i].first, m_found[i].second)]++] = m_found[i];
     }
@@ -67,7 +56,7 @@ void RunWriter<Id>::flush() {
   const std::size_t beginBytes = m_begins.size() * sizeof(std::uint64_t);
   const std::uint64_t position = m_file.end.fetch_add(pairBytes + beginBytes);
   Checksum checksum;
-  forEachBatch([&](std::size_t begin, std::size_t end) {
+  inBatches(m_found.size(), m_stop, [&](std::size_t begin, std::size_t end) {
     const std::size_t bytes = (end - begin) * sizeof(StoredPair<Id>);
     checksum.add(&m_grouped[begin], bytes);
     m_file.file.write(position + begin * sizeof(StoredPair<Id>), &m_grouped[begin], bytes);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
@@ -27,6 +28,16 @@ struct StoredPair {
 inline constexpr const char* kForeignBox = "is damaged: it names a box that is not of this join";
 
 inline constexpr std::size_t kMostRanges = 4096;  ///< Of first boxes: pairs are put in order some at a time.
+
+/// Calls use(begin, end) for some of so many pairs at a time, and looks for a stop before each time.
+template <class Use>
+void inBatches(std::size_t pairs, const StopFlag* stop, const Use& use) {
+  constexpr std::size_t kBatch = std::size_t{1} << 16;
+  for (std::size_t begin = 0; begin < pairs; begin += kBatch) {
+    checkStop(stop);
+    use(begin, std::min(begin + kBatch, pairs));
+  }
+}
 
 /// Which range of keys a pair is put into. The key is the first box, or where a range has only one of them, the second.
 struct KeyRanges {
@@ -82,8 +93,6 @@ class RunWriter {
 
  private:
   void flush();
-  template <class Use>
-  void forEachBatch(const Use& use) const;
 
   KeyRanges m_ranges;
   std::size_t m_capacity;
