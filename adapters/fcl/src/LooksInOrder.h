@@ -24,7 +24,7 @@ class LooksInOrder {
   /// for PartSearch::visitApart().
   double add(const PartPair& parts, Meeting meeting);
 
-  /// The looks that count, and perhaps others that are no nearer.
+  /// The looks that can change the report, in their order. Some of the others may be among them.
   [[nodiscard]] std::map<PartPair, Meeting> take();
 
  private:

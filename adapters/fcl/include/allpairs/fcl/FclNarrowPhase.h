@@ -45,10 +45,10 @@ struct ExactOptions {
 ///            than 500 measures of each model, or what is measured first is below a millionth of the extent.
 /// Bad input: a null model throws InvalidArgument; options that are negative or NaN too.
 /// Cost:      per pair, a search for where the two meet or are nearest, and for a pair that meets a distance for each
-///            vertex that lies in the other, and up to 1,000 more. Of models of many spheres, capsules or boxes, only
-///            those are looked at whose boxes are no further apart than the nearest two are. Where that is so of most,
-///            or where triangles are long and lie across the axes, the time grows with the product of their numbers.
-///            The memory grows with the parts, and with the pairs of those that meet.
+///            vertex that lies in the other, and up to 1,000 more. In models of many spheres, capsules or boxes, a
+///            pair of these is looked at only if its boxes are no further apart than the nearest pair. If most are as
+///            near as that, or triangles are long and lie across the axes, the time grows with the product of their
+///            numbers. The memory grows with the parts, and with the pairs of parts that meet.
 /// Threads:   one step at a time per object; the search for inner points runs on the calling thread.
 /// Memory:    addCollisionPair() that throws std::bad_alloc leaves the pairs as they were.
 class FclNarrowPhase : public collision::NarrowPhaseDetection {
