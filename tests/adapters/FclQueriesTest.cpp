@@ -143,6 +143,27 @@ TYPED_TEST(FclQueries, GivesThePairsWithinADistanceFarFromTheOrigin) {
   }
 }
 
+TYPED_TEST(FclQueries, ADistanceThatIsNotANumberIsNoErrorOfTheQuery) {
+  using S = TypeParam;
+  const auto setNan = [](auto*, auto*, void* data, S& least) {
+    ++*static_cast<int*>(data);
+    least = std::numeric_limits<S>::quiet_NaN();
+    return false;
+  };
+  for (const std::size_t count : {3U, 100U, 400U}) {
+    FclBroadPhaseManager<S> manager;
+    FclBroadPhaseManager<S> other;
+    manager.registerObjects(this->addObjects(count, S(9)));
+    other.registerObjects(this->addObjects(300, S(9)));
+    for (int query = 0; query < 3; ++query) {
+      int asked = 0;
+      manager.distance(&other, &asked, setNan);
+      manager.distance(&asked, setNan);
+      EXPECT_GT(asked, 0);
+    }
+  }
+}
+
 TYPED_TEST(FclQueries, GivesAllObjectsWithinADistanceInTheFirstQueryAndInTheHundredth) {
   using S = TypeParam;
   for (const std::size_t count : {3U, 64U, 65U, 300U}) {

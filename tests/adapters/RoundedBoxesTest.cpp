@@ -99,6 +99,30 @@ TEST_P(RoundedBoxesOf, TheNearestIsAsNearAsAnyButForTheRounding) {
   }
 }
 
+TEST_P(RoundedBoxesOf, TheNearestOfTheOthersIsNeverTheOneItself) {
+  std::mt19937 random(static_cast<unsigned>(GetParam()) + 2);
+  RoundedBoxes boxes;
+  std::vector<Row> rows;
+  for (std::size_t i = 0; i < GetParam(); ++i) {
+    rows.push_back(anyBox(random, 0.0, 20.0));
+    boxes.set(static_cast<BoxId>(i), rows.back().data());
+  }
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    double least = kInfinity;
+    for (std::size_t j = 0; j < rows.size(); ++j) {
+      if (j != i) least = std::fmin(least, distance(rows[j], rows[i]));
+    }
+    const BoxId nearest = boxes.nearest(RoundedBoxes::rounded(rows[i].data()), static_cast<BoxId>(i));
+    if (rows.size() == 1) {
+      ASSERT_EQ(nearest, kNoBox);
+      continue;
+    }
+    ASSERT_NE(nearest, i);
+    ASSERT_LT(nearest, rows.size());
+    ASSERT_LE(distance(rows[nearest], rows[i]), 1.001 * least + 1e-5);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Numbers, RoundedBoxesOf,
                          testing::Values(0, 1, 2, 3, 4, 5, 31, 32, 33, 63, 64, 65, 127, 130, 300));
 

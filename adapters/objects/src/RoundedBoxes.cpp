@@ -70,13 +70,15 @@ std::uint64_t RoundedBoxes::mayOverlap(std::size_t block, const Row& box) const 
   return count == kBlock ? found : found & ((std::uint64_t{1} << count) - 1);
 }
 
-BoxId RoundedBoxes::nearest(const Row& box) const {
+BoxId RoundedBoxes::nearest(const Row& box, BoxId except) const {
   // Numbers that are not negative are in the order of their bits: with its number in place of its last bits the square
   // of a distance needs one comparison, and no branch.
   if (m_size > kMostForNearest) return kNoBox;
   std::int32_t numbers = 1;
   while (static_cast<std::size_t>(numbers) + 1 < m_size) numbers = 2 * numbers + 1;
   FourBits number{0, 1, 2, 3};
+  const auto other = static_cast<std::int32_t>(except);
+  const FourBits others{other, other, other, other};
   Four least = all(kInfinity);
   for (std::size_t at = 0; at < m_size; at += kLanes, number += static_cast<std::int32_t>(kLanes)) {
     Four square{};
@@ -87,8 +89,9 @@ BoxId RoundedBoxes::nearest(const Row& box) const {
       const Four gap = apart > Four{} ? apart : Four{};
       square += gap * gap;
     }
-    const auto key = as<Four>((as<FourBits>(square) & ~numbers) | number);
-    least = key < least ? key : least;  // with other last bits, infinity is a NaN, which is never less
+    // With other last bits, infinity is a NaN, which is never less; with all bits, any number is.
+    const auto key = as<Four>((as<FourBits>(square) & ~numbers) | number | as<FourBits>(number == others));
+    least = key < least ? key : least;
   }
   const auto keys = as<FourBits>(least);
   const std::int32_t key = std::min(std::min(keys[0], keys[1]), std::min(keys[2], keys[3]));

@@ -35,7 +35,8 @@ struct FclHost {
 ///
 /// For distances, a callback gets no pair twice, and near pairs early. It gets every pair whose boxes overlap, and
 /// every pair whose boxes are no farther apart than the smallest distance that it has set so far. So a callback that
-/// always sets the same distance, a threshold or 0, gets all pairs within it.
+/// always sets the same distance, a threshold or 0, gets all pairs within it. One that sets a NaN gets nothing more, or
+/// little.
 ///
 /// Objects stay the caller's. Their boxes are read when they are registered and by update(), as in FCL's managers; an
 /// octree counts with its box, like any other geometry. An object that is registered again, or that leaves without

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -28,23 +29,38 @@ struct NearPair {
   }
 };
 
-/// All pairs of objects from a first number on whose boxes are apart, and within a distance however the host rounds,
-/// near ones first. Nothing where there are more than a few for each object: who asks about them may make the distance
-/// smaller with each.
+/// All pairs of objects from a first number on whose boxes are apart, and within a distance however the host rounds.
+/// Nothing where there are more than a few for each object: who asks may make the distance smaller with each of them.
 template <class Object>
 [[nodiscard]] std::optional<std::vector<NearPair<typename ObjectRows<Object>::S>>> pairsApart(
     const ObjectRows<Object>& rows, BoxId begin, typename ObjectRows<Object>::S within) {
   using S = typename ObjectRows<Object>::S;
   constexpr std::size_t kMostOfEach = 4;
   const double most = std::max(rows.magnitude(), static_cast<double>(within));
+  const double reach =
+      static_cast<double>(within) + 16.0 * static_cast<double>(std::numeric_limits<S>::epsilon()) * most;
+  // Each box is widened by half of it, and by more than is lost when its distances from the origin become float32.
+  const double extent = rows.extent();
+  const double half = 0.5 * reach + 0x1p-22 * (extent + reach) + 0x1p-120;
+  if (extent + half > 1e38) return std::nullopt;
+  const auto by = static_cast<float>(half);
+  const std::array<double, 3> origin = rows.origin();
+  const Span<const S> wanted = rows.rows().subspan(std::size_t{6} * begin);
+  std::vector<float> widened(wanted.size());
+  for (std::size_t i = 0; i < wanted.size(); i += 6) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      widened[i + k] = static_cast<float>(static_cast<double>(wanted[i + k]) - origin[k]) - by;
+      widened[i + 3 + k] = static_cast<float>(static_cast<double>(wanted[i + 3 + k]) - origin[k]) + by;
+    }
+  }
   OverlapOptions options;
   options.order = Order::Unordered;
-  options.distance = static_cast<double>(within) + 16.0 * static_cast<double>(std::numeric_limits<S>::epsilon()) * most;
   options.maxPairs = kMostOfEach * rows.size();
-  if (!std::isfinite(options.distance)) return std::nullopt;
   std::vector<NearPair<S>> near;
   try {
-    for (const Pair& pair : overlaps(BoxView::fromRows(rows.rows().subspan(std::size_t{6} * begin)), options)) {
+    const std::vector<Pair> found = overlaps(BoxView::fromRows(widened), options);
+    near.reserve(found.size());
+    for (const Pair& pair : found) {
       const Pair ids{begin + pair.first, begin + pair.second};
       const auto first = rows.bounds(ids.first);
       const auto second = rows.bounds(ids.second);
@@ -53,7 +69,6 @@ template <class Object>
   } catch (const LimitExceeded&) {
     return std::nullopt;
   }
-  std::sort(near.begin(), near.end());
   return near;
 }
 

@@ -146,14 +146,17 @@ class ObjectBroadPhase {
     for (const Pair& pair : pairs()) {
       if (ask(m_rows[pair.first], m_rows[pair.second], least)) return true;
     }
-    // Some objects ask about the others one by one. By then the least distance is small, and few pairs are within it.
-    BoxId next = kOneByOne;
-    for (BoxId id = 0; id < m_rows.bound() && least > S(0); ++id) {  // what is left is apart
+    // What is left is apart. A near pair makes the least distance small, and few pairs are within it; else objects ask
+    // about the others one by one until few are.
+    const Pair first = least > S(0) ? somePairApart(least) : kNoPair;
+    if (first != kNoPair && ask(m_rows[first.first], m_rows[first.second], least)) return true;
+    BoxId next = 0;
+    for (BoxId id = 0; id < m_rows.bound() && least > S(0); ++id) {
       if (id >= next && least != std::numeric_limits<S>::max()) {
-        next = 4 * id;
-        if (const auto near = pairsApart(m_rows, id, least)) return askInTurn(*near, ask, least);
+        next = 4 * id + 1;
+        if (auto near = pairsApart(m_rows, id, least)) return askInTurn(*near, first, ask, least);
       }
-      if (m_rows.hasBox(id) && eachNearApart(id, ask, least)) return true;
+      if (m_rows.hasBox(id) && eachNearApart(id, first, ask, least)) return true;
     }
     return false;
   }
@@ -184,6 +187,8 @@ class ObjectBroadPhase {
       return std::pair(a.distance, a.id) < std::pair(b.distance, b.id);
     }
   };
+
+  static constexpr Pair kNoPair{kNoBox, kNoBox};
 
   /// Up to so many objects, comparing several at once costs more than it saves.
   static constexpr BoxId kOneByOne = 8;
@@ -294,21 +299,42 @@ class ObjectBroadPhase {
     return std::any_of(found.begin(), found.end(), visitIf);
   }
 
+  /// Two objects that are apart and, as they are the nearest of some objects, often near to each other; kNoPair if none
+  /// of them is within the least distance.
+  [[nodiscard]] Pair somePairApart(S least) const {
+    constexpr BoxId kSome = 4;
+    const RoundedBoxes& rounded = m_search.rounded(m_rows.rows());
+    NearPair<S> best{limitOf(least), kNoPair};
+    for (BoxId id = 0; id < m_rows.bound(); id += m_rows.bound() / kSome + 1) {
+      const BoxId other = m_rows.hasBox(id) ? rounded.nearest(toRounded(toBox(m_rows.bounds(id))), id) : kNoBox;
+      if (other == kNoBox || !m_rows.hasBox(other) || m_rows.overlaps(other, m_rows.bounds(id))) continue;
+      const Pair pair{std::min(id, other), std::max(id, other)};
+      best = std::min(best, {m_rows.bounds(id).distance(m_rows.bounds(other)), pair});
+    }
+    return best.pair;
+  }
+
+  /// Asks about pairs but for one, of which that was done, the nearest first.
   template <class Ask>
-  bool askInTurn(const std::vector<NearPair<S>>& near, const Ask& ask, S& least) const {
-    for (const auto& [distance, pair] : near) {
-      if (distance > limitOf(least)) return false;
-      if (ask(m_rows[pair.first], m_rows[pair.second], least)) return true;
+  bool askInTurn(std::vector<NearPair<S>>& near, Pair except, const Ask& ask, S& least) const {
+    const auto isFarther = [](const NearPair<S>& a, const NearPair<S>& b) { return b < a; };
+    std::make_heap(near.begin(), near.end(), isFarther);
+    for (auto end = near.end(); end != near.begin() && near.front().distance <= limitOf(least); --end) {
+      const Pair pair = near.front().pair;
+      if (pair != except && ask(m_rows[pair.first], m_rows[pair.second], least)) return true;
+      std::pop_heap(near.begin(), end, isFarther);
     }
     return false;
   }
 
-  /// Asks about the objects behind one that are apart from it and near.
+  /// Asks about the objects behind one that are apart from it and near, but for a pair of which that was done.
   template <class Ask>
-  bool eachNearApart(BoxId id, const Ask& ask, S& least) const {
+  bool eachNearApart(BoxId id, Pair except, const Ask& ask, S& least) const {
     const Bounds bounds = m_rows.bounds(id);
     const auto askBoth = [&](BoxId other) { return ask(m_rows[id], m_rows[other], least); };
-    const auto isWanted = [&](BoxId other) { return other > id && !bounds.overlap(m_rows.bounds(other)); };
+    const auto isWanted = [&](BoxId other) {
+      return other > id && Pair{id, other} != except && !bounds.overlap(m_rows.bounds(other));
+    };
     return askNear(Question<decltype(isWanted), decltype(askBoth)>{bounds, isWanted, askBoth, id + 1}, least);
   }
 
@@ -351,6 +377,7 @@ class ObjectBroadPhase {
     const double most = magnitude(question.bounds);
     double within = reachOf(least, most);
     bool isEnded = false;
+    if (std::isnan(within)) return false;
     world.visitNear(toBox(question.bounds), within, [&](BoxId id) {
       Candidate candidate;
       if (id < question.begin || !isCandidate(question, id, least, candidate)) return within;

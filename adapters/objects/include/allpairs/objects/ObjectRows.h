@@ -146,6 +146,19 @@ class ObjectRows {
     return most;
   }
 
+  /// The lower corner of the box around all that were read since the last clear(), and its greatest extent.
+  [[nodiscard]] std::array<double, 3> origin() const {
+    return {static_cast<double>(m_hull.min_[0]), static_cast<double>(m_hull.min_[1]),
+            static_cast<double>(m_hull.min_[2])};
+  }
+  [[nodiscard]] double extent() const {
+    double most = 0.0;
+    for (int axis = 0; axis < 3; ++axis) {
+      most = std::max(most, static_cast<double>(m_hull.max_[axis]) - static_cast<double>(m_hull.min_[axis]));
+    }
+    return most;
+  }
+
   /// All boxes by number: minx miny minz maxx maxy maxz. Where an object has left it is an empty one.
   [[nodiscard]] Span<const S> rows() const { return m_rows; }
 

@@ -57,9 +57,9 @@ class RoundedBoxes {
   /// Which of the kBlock boxes of one of the blocks(), as bits, may overlap another.
   [[nodiscard]] std::uint64_t mayOverlap(std::size_t block, const Row& box) const;
 
-  /// The number of a box that is near to another: none of them is at half its distance, of up to a million. kNoBox if
-  /// there is none at a finite distance, or if there are more than kMostForNearest.
-  [[nodiscard]] BoxId nearest(const Row& box) const;
+  /// The number of a box, other than one, that is near to another: none of them is at half its distance, of up to a
+  /// million. kNoBox if there is none at a finite distance, or if there are more than kMostForNearest.
+  [[nodiscard]] BoxId nearest(const Row& box, BoxId except = kNoBox) const;
 
  private:
   void grow(std::size_t boxes);
