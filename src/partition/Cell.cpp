@@ -74,6 +74,22 @@ struct CellSearch::State {
     const BoxView* second;  ///< Null where it is one set.
   };
 
+  /// Marks a search as running, of which nothing may change before its own callbacks are refused.
+  struct Running {
+    explicit Running(State& state) : isRunning(state.isRunning) {
+      if (std::exchange(isRunning, true)) refuse();
+    }
+    ~Running() { isRunning = false; }
+    Running(const Running&) = delete;
+    Running& operator=(const Running&) = delete;
+
+    [[noreturn]] static void refuse() {
+      throw InvalidArgument("CellSearch is called by its own filter, visitor, stop or task");
+    }
+
+    bool& isRunning;
+  };
+
   explicit State(OverlapOptions given) : maxPairs(given.maxPairs), search(std::move(given)) {}
 
   void setLimit(std::uint64_t limit) {
@@ -124,6 +140,7 @@ struct CellSearch::State {
   /// Pairs of other cells are found too, and do not count.
   void stream(const Sets& sets, const Cell& cell, PairVisitor visitor) {
     checkCell(cell);
+    const Running running(*this);
     setLimit(OverlapOptions().maxPairs);
     count = 0;
     const bool isAll = hasAll(cell);
@@ -141,6 +158,7 @@ struct CellSearch::State {
 
   std::span<const Pair> find(const Sets& sets, const Cell& cell) {
     checkCell(cell);
+    if (isRunning) Running::refuse();
     setLimit(maxPairs);
     std::span<const Pair> found;
     try {
@@ -166,6 +184,7 @@ struct CellSearch::State {
 
   std::uint64_t maxPairs;
   std::uint64_t count = 0;
+  bool isRunning = false;
   OverlapSearch search;
   std::vector<char> home;
   std::vector<char> secondHome;

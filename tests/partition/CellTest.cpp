@@ -4,9 +4,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "allpairs/Error.h"
@@ -88,6 +91,30 @@ TEST(Cell, ANanOnAnyAxisIsRefused) {
     EXPECT_THROW((void)countOverlapsInCell(kRow, low), InvalidArgument);
     EXPECT_THROW((void)countOverlapsInCell(kRow, high), InvalidArgument);
   }
+}
+
+TEST(Cell, ACallByItsOwnVisitorIsRefusedAndChangesNothing) {
+  std::vector<Box> boxes;
+  for (int i = 0; i < 30000; ++i) boxes.push_back(cube(0.5 * i, 0, 0));
+  const Cell left{{-1e9, -1e9, -1e9}, {2000, 1e9, 1e9}};
+  const Cell right{{2000, -1e9, -1e9}, {1e9, 1e9, 1e9}};
+  CellSearch search;
+  std::vector<Pair> found;
+  std::size_t refused = 0;
+  search.stream(BoxView::fromBoxes(boxes), left, [&](std::span<const Pair> pairs) {
+    found.insert(found.end(), pairs.begin(), pairs.end());
+    try {
+      search.stream(BoxView::fromBoxes(boxes), right, [](std::span<const Pair>) {});
+    } catch (const InvalidArgument& error) {
+      refused += std::string(error.what()).starts_with("CellSearch is called by its own") ? 1U : 0U;
+    }
+    EXPECT_THROW(static_cast<void>(search.find(BoxView::fromBoxes(boxes), right)), InvalidArgument);
+    EXPECT_THROW(search.setFilter({}), InvalidArgument);
+  });
+  EXPECT_GE(refused, 1U);
+  std::sort(found.begin(), found.end());
+  CellSearch other;
+  EXPECT_TRUE(std::ranges::equal(found, other.find(BoxView::fromBoxes(boxes), left)));
 }
 
 TEST(Cell, ASearchOfOneSetAfterOneOfTwoKnowsNothingOfThose) {

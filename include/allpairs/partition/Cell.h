@@ -106,6 +106,7 @@ struct Cell {
 /// Options:   order and maxPairs are those of the pairs of a cell, distance and filter as in OverlapSearch; `first` and
 ///            `second` of a filter, and the numbers that `accept` receives, are indices into the given boxes.
 /// Bad input: as OverlapSearch; a cell with a NaN throws InvalidArgument; one with min >= max on an axis has no pairs.
+///            A call by the search's own filter, visitor, stop or task throws InvalidArgument.
 /// Threads:   one search at a time per object.
 class CellSearch {
  public:
