@@ -363,6 +363,10 @@ TEST(FclBodies, AToleranceOfZeroIsOneAndEachBelowIsRefused) {
     EXPECT_THROW(FclNarrowPhase({.clearance = bad}), InvalidArgument);
     EXPECT_THROW(FclNarrowPhase({.leastDepth = bad}), InvalidArgument);
   }
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  EXPECT_THROW(FclNarrowPhase({.tolerance = kInfinity}), InvalidArgument);
+  EXPECT_THROW(FclNarrowPhase({.duplicateTolerance = kInfinity}), InvalidArgument);
+  EXPECT_NO_THROW(FclNarrowPhase({.clearance = kInfinity, .leastDepth = kInfinity}));
 }
 
 }  // namespace

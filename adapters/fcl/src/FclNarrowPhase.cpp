@@ -145,8 +145,11 @@ bool isAnyOpen(const ExactBody& body) {
 constexpr double kRoundings = 4.0;
 
 void checkOptions(const ExactOptions& options) {
-  if (!(options.tolerance >= 0.0)) throw InvalidArgument("the tolerance of an exact test is negative or NaN");
-  if (!(options.duplicateTolerance >= 0.0)) throw InvalidArgument("the tolerance of duplicates is negative or NaN");
+  // Tolerances are parts of an extent, which may be 0.
+  const auto isPart = [](double value) { return value >= 0.0 && std::isfinite(value); };
+  if (!isPart(options.tolerance)) throw InvalidArgument("the tolerance of an exact test is negative, infinite or NaN");
+  if (!isPart(options.duplicateTolerance))
+    throw InvalidArgument("the tolerance of duplicates is negative, infinite or NaN");
   if (!(options.clearance >= 0.0)) throw InvalidArgument("the clearance of an exact test is negative or NaN");
   if (!(options.leastDepth >= 0.0)) throw InvalidArgument("the least depth of a clash is negative or NaN");
 }
