@@ -207,9 +207,10 @@ class Life {
           end.min[k] += velocities[3 * i + k] * duration;
           end.max[k] += velocities[3 * i + k] * duration;
         }
-        isRefused = isRefused || hasNanBound(end);
-        // The end of an empty box may be none, by rounding; the box stays.
-        swept.push_back(test::WorldOracle::empty(starts[i]) ? starts[i] : joined(starts[i], end));
+        // The end of an empty box may not be empty, by rounding, or a NaN; the box stays.
+        const bool isMoved = !test::WorldOracle::empty(starts[i]);
+        isRefused = isRefused || (isMoved && hasNanBound(end));
+        swept.push_back(isMoved ? joined(starts[i], end) : starts[i]);
       }
       try {
         m_world.moveSwept(ids, from, velocities, duration);

@@ -50,7 +50,8 @@ namespace allpairs {
 ///            and what a stop flag asks, may use other worlds too, and of the world that runs them what reads boxes
 ///            and the last result: box(), contains(), properties(), size(), idBound(), result(). They must not change
 ///            it. While its hierarchies or lists are about to change, queries and result(world) throw InvalidArgument
-///            there. An executor must not ask the world outside of the tasks.
+///            there. An executor must not ask the world outside of the tasks. Worlds whose stop flags or tasks use each
+///            other in a circle wait for ever, or are refused.
 /// Moving:    a moved-from world is like a new one with default options.
 ///
 /// The lists of a step are valid until the next step. Queries return their own memory.

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Large worlds with numbers whose boxes come, go and change, against an oracle; and changes of a few boxes.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <random>
 #include <string>
 #include <utility>
@@ -13,6 +15,7 @@
 
 #include "CompareStep.h"
 #include "WorldOracle.h"
+#include "allpairs/Error.h"
 #include "allpairs/World.h"
 #include "support/Boxes.h"
 
@@ -192,6 +195,21 @@ TEST(World, AnEmptyBoxThatMovesByAVelocityStaysEmpty) {
   world.moveSwept({&id, 1}, test::lent(std::array{empty}), std::array{1e10, 0.0, 0.0}, 1.0);
   EXPECT_TRUE(isEmpty(world.box(id)));
   EXPECT_TRUE(world.step().pairs.empty());
+
+  world.moveSwept({&id, 1}, test::lent(std::array{kEmptyBox}), std::array{1e308, 0.0, 0.0}, 10.0);  // ends at NaNs
+  EXPECT_TRUE(isEmpty(world.box(id)));
+}
+
+TEST(World, AStartThatIsNotANumberIsNamedAsSuch) {
+  World world;
+  const BoxId id = world.add(test::cube(0, 0, 0));
+  const Box box{{0, std::numeric_limits<double>::quiet_NaN(), 0}, {1, 1, 1}};
+  try {
+    world.moveSwept({&id, 1}, test::lent(std::array{box}), std::array{1.0, 0.0, 0.0}, 1.0);
+    ADD_FAILURE() << "a NaN was taken";
+  } catch (const InvalidBox& error) {
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("min y"));
+  }
 }
 
 }  // namespace

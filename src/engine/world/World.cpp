@@ -216,10 +216,11 @@ void World::moveSwept(Span<const BoxId> ids, const BoxView& starts, Span<const d
       end.min[axis] += velocity[axis] * duration;
       end.max[axis] += velocity[axis] * duration;
     }
-    if (hasNan(end))
+    // The end of an empty box may not be empty, by rounding, or a NaN.
+    const bool isMoved = !isEmpty(starts[i]) && !hasNan(starts[i]);
+    if (isMoved && hasNan(end))
       throw InvalidBox(i, "box " + std::to_string(ids[i]) + " and its motion are infinite: it ends at a NaN");
-    // The end of an empty box may be none, by rounding.
-    swept.push_back(isEmpty(starts[i]) ? starts[i] : merge(starts[i], end));
+    swept.push_back(isMoved ? merge(starts[i], end) : starts[i]);
   }
   state().store.move(ids, swept);
 }
