@@ -295,6 +295,18 @@ TEST_F(SofaMeshFile, StripsAndLinesOfAVtkSurfaceAreCounted) {
   EXPECT_EQ(xml.passedOver, 3U);
 }
 
+TEST_F(SofaMeshFile, VtkPolygonsAndStripsOfLessThanThreeCornersAreCounted) {
+  const std::string head = "# vtk DataFile Version 3.0\nt\nASCII\nDATASET ";
+  const std::string points = "\nPOINTS 3 float\n0 0 0 1 0 0 0 1 0\n";
+  const auto surface = mesh("a.vtk", head + "POLYDATA" + points + "POLYGONS 3 9\n2 0 1\n3 0 1 2\n1 0\n");
+  EXPECT_THAT(surface.triangles, SizeIs(1));
+  EXPECT_EQ(surface.passedOver, 2U);
+  const auto cells =
+      mesh("a.vtk", head + "UNSTRUCTURED_GRID" + points + "CELLS 3 10\n2 0 1\n3 0 1 2\n2 1 2\nCELL_TYPES 3\n7\n7\n6\n");
+  EXPECT_THAT(cells.triangles, SizeIs(1));
+  EXPECT_EQ(cells.passedOver, 2U);
+}
+
 TEST_F(SofaMeshFile, VtkNamesTheLineOfACellEvenWherePointsComeLater) {
   const std::string head = "# vtk DataFile Version 2.0\nx\nASCII\nDATASET POLYDATA\n";
   const std::string points = "POINTS 3 float\n0 0 0\n1 0 0\n0 1 0\n";

@@ -130,10 +130,12 @@ void VtkCells::addQuadratic(std::int64_t type, std::span<const Index> c) {
 }
 
 void VtkCells::addFan(std::span<const Index> c) {
+  if (c.size() < 3) ++m_mesh.passedOver;
   for (std::size_t i = 2; i < c.size(); ++i) m_mesh.triangles.push_back({c[0], c[i - 1], c[i]});
 }
 
 void VtkCells::addStrip(std::span<const Index> c) {
+  if (c.size() < 3) ++m_mesh.passedOver;
   for (std::size_t i = 2; i < c.size(); ++i)
     if (i % 2 == 1)
       m_mesh.triangles.push_back({c[i - 2], c[i - 1], c[i]});
