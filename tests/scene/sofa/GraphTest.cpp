@@ -7,6 +7,7 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::SizeIs;
 
 using SofaGraph = SceneTest;
 
@@ -34,6 +35,22 @@ TEST_F(SofaGraph, InactiveNodesAreLeftOut) {
     <Node name="B" activated="false"><PointModel/></Node>
     <Node name="C" activated="true"><PointModel name="p"/></Node>)");
   EXPECT_THAT(pathsOf(scene), ElementsAre("/C/p"));
+  EXPECT_THAT(scene.warnings, SizeIs(1)) << "that there is no pipeline";
+}
+
+TEST_F(SofaGraph, ANodeThatIsNeitherActivatedNorNotIsActiveAndSaysSo) {
+  const auto scene = readIn(R"(<MechanicalObject/>
+    <Node name="A" activated="no"><PointModel name="p"/></Node>
+    <Node name="B" activated="@/A.activated"><PointModel name="p"/></Node>
+    <Node name="C" activated=""><PointModel name="p"/></Node>)");
+  EXPECT_THAT(pathsOf(scene), ElementsAre("/A/p", "/B/p", "/C/p"));
+  ASSERT_THAT(scene.warnings, SizeIs(3)) << "one is that there is no pipeline";
+  EXPECT_EQ(scene.warnings[1].subject, "/A");
+  EXPECT_EQ(scene.warnings[1].line, 3U);
+  EXPECT_EQ(scene.warnings[1].reason, "activated: 'no' is neither true nor false; the node is active, as in SOFA");
+  EXPECT_EQ(scene.warnings[2].subject, "/B");
+  EXPECT_EQ(scene.warnings[2].reason,
+            "activated: '@/A.activated' is a link, which this reader does not follow; the node is taken as active");
 }
 
 TEST_F(SofaGraph, ModelsWithoutANameAreNumberedByClassThroughoutTheFile) {

@@ -96,7 +96,8 @@ struct Node {
   std::string name;  ///< As given, or as SOFA would number it; newer SOFA leaves it empty.
   bool isNamed = false;
   bool active = true;
-  std::string gravity;  ///< As given; empty where it is not.
+  std::string badActivation;  ///< What `activated` is where it is neither true nor false.
+  std::string gravity;        ///< As given; empty where it is not.
   Place place;
   Node* parent = nullptr;
   /// Names of components, each of the first before its second when the simulation starts, whatever their order here.

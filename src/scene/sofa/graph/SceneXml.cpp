@@ -306,7 +306,10 @@ std::unique_ptr<Node> toNode(Element&& element, Node* parent, std::size_t& made)
   node->place = element.place;
   node->parent = parent;
   node->gravity = element.attributes.value("gravity");
-  node->active = parseBool(element.attributes.value("activated")).value_or(true);
+  const auto activated = element.attributes.value("activated");
+  const auto active = parseBool(activated);
+  node->active = active.value_or(true);
+  if (!active) node->badActivation = activated;
   const std::vector<std::string> names = allWords(element.attributes.value("depend"));
   for (std::size_t i = 0; i + 1 < names.size(); i += 2) node->order.emplace_back(names[i], names[i + 1]);
   for (auto& child : element.children) {

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "allpairs/scene/FileError.h"
+#include "input/Words.h"
 #include "sofa/evaluation/Evaluation.h"
 #include "sofa/graph/Generation.h"
 #include "sofa/graph/Links.h"
@@ -164,6 +165,19 @@ PipelineDescription describePipeline(Evaluation& evaluation, const PipelineParts
   return pipeline;
 }
 
+/// Says which nodes are taken as active although they do not say so in a way that can be read.
+void warnOfActivation(const Node& node, SceneDescription& scene) {
+  if (const std::string_view text = node.badActivation; !text.empty())
+    scene.warnings.push_back(
+        {.file = *node.place.file,
+         .line = node.place.line,
+         .subject = node.path(),
+         .reason = "activated: " + quotedWord(text) +
+                   (text.starts_with('@') ? " is a link, which this reader does not follow; the node is taken as active"
+                                          : " is neither true nor false; the node is active, as in SOFA")});
+  for (const auto& child : node.children) warnOfActivation(*child, scene);
+}
+
 /// Says of each class name once why it is doubtful.
 void warnOfNames(const Node& node, Generation generation, std::set<std::string>& seen, SceneDescription& scene) {
   for (const auto& component : node.components) {
@@ -212,6 +226,7 @@ SceneDescription describeScene(const std::filesystem::path& path, const ReadOpti
     scene.pipelines.push_back(describePipeline(evaluation, parts, models));
     warnOf(parts, *root, scene);
   }
+  warnOfActivation(*root, scene);
   std::set<std::string> seen;
   warnOfNames(*root, generation, seen, scene);
   warnOfSlips(*root, scene);
