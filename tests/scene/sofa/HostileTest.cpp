@@ -158,6 +158,19 @@ TEST_F(SofaHostile, StatesOfOneNodeAreNotComparedWithItsComponents) {
   EXPECT_EQ(evaluation.warnings().size(), 1U);
 }
 
+TEST_F(SofaHostile, ModelsBeforeTheirStateAreNotComparedWithTheComponentsOfTheNode) {
+  constexpr int kModels = 40'000;
+  std::string models;
+  for (int i = 0; i < kModels; ++i) models += "<PointModel/>";
+  const auto file = m_folder.write("scene.scn", "<Node><Node><MechanicalObject/><PointModel/></Node><Node>" + models +
+                                                    "<MechanicalObject/></Node></Node>");
+  ReadOptions options;
+  options.maxMemory = 1100 * kModels;  // allows less than kModels squared comparisons
+  const auto scene = describeScene(file, options);
+  EXPECT_EQ(scene.models.size(), 1U);
+  EXPECT_EQ(scene.warnings.size(), 1U + kModels);
+}
+
 TEST_F(SofaHostile, EachElementOfAModelCounts) {
   const auto leastMemoryFor = [&](int triangles) {
     std::string points;

@@ -276,14 +276,24 @@ void describeRules(Evaluation& evaluation, const Component& component, ModelDesc
     }
 }
 
+/// The state that a model sees when SOFA makes it: inContext() among those that come before it in the file, in whose
+/// order a node has them.
+const Component* stateSeenBefore(const Component& model) {
+  const auto isBefore = [&](const Component* state) { return state->order < model.order; };
+  const auto& own = model.node->states;
+  if (const auto end = std::ranges::partition_point(own, isBefore); end != own.begin()) return *(end - 1);
+  for (const auto* at = model.node->parent; at != nullptr; at = at->parent)
+    if (!at->states.empty() && isBefore(at->states.front())) return at->states.front();
+  return nullptr;
+}
+
 }  // namespace
 
 bool isMade(Evaluation& evaluation, const Component& model) {
   if (model.kind() != PointModel && model.kind() != LineModel && model.kind() != TriangleModel) return true;
   const auto* state = inContext(*model.node, isState);
-  if (state == nullptr || state->order < model.order) return true;  // most often, and seeks in no list of others
-  takeWork(evaluation, model, model.node->components.size());
-  const auto* seen = inContext(*model.node, [&](const Component& c) { return isState(c) && c.order < model.order; });
+  if (state == nullptr || state->order < model.order) return true;
+  const auto* seen = stateSeenBefore(model);
   if (seen == state || (seen != nullptr && !isRigidTemplate(seen->attributes.value("template")))) return true;
   return evaluation.isMadeFor(model, *state, "it is left out");
 }
