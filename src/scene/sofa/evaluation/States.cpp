@@ -217,8 +217,10 @@ constexpr std::array kProjections{
     "SkeletalMotionProjectiveConstraint"sv,
 };
 
-void warnOfProjections(Evaluation& evaluation, const Node& node) {
+void warnOfProjections(Evaluation& evaluation, const Component& state) {
+  const Node& node = *state.node;
   if (!evaluation.isFirstStateIn(node)) return;
+  takeWork(evaluation, state, node.components.size());
   for (const auto& component : node.components)
     if (std::ranges::binary_search(kProjections, std::string_view{component->type}))
       evaluation.warn(*component,
@@ -247,7 +249,7 @@ State initialState(Evaluation& evaluation, const Component& component) {
   state.kind = kindOf(component);
   if (state.kind == State::Kind::Other || component.kind() != ComponentKind::MechanicalState)
     throw Unplaceable(component, "states of this kind have no points in space that this reader knows");
-  warnOfProjections(evaluation, *component.node);
+  warnOfProjections(evaluation, component);
   const std::size_t width = state.width();
   state.resize(1);
   const auto motion = state.kind == State::Kind::Points ? evaluation.gridMotion(component, "position") : std::nullopt;
