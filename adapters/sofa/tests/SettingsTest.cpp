@@ -2,6 +2,8 @@
 // The data of the plugin's component, what it says of bad ones, and how SOFA finds it.
 #include <sofa/core/ObjectFactory.h>
 
+#include <limits>
+
 #include "World.h"
 
 extern "C" {
@@ -64,12 +66,42 @@ TEST_F(SofaSettings, ABoxThatIsReversedInYIsInForceAsInSofaAndSaysSo) {
   EXPECT_THAT(messages().warnings, ElementsAre(HasSubstr("is in force")));
 }
 
+TEST_F(SofaSettings, ABoxWithANaNInXIsInForceAsInSofaAndSaysSo) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(runWithBox({nan, 10.0, 10.0}, {nan, 11.0, 11.0}), Numbers{});
+  EXPECT_THAT(messages().warnings, ElementsAre(HasSubstr("is in force")));
+}
+
 TEST_F(SofaSettings, EveryStrategyGivesTheSameList) {
   for (const char* name : {"automatic", "exhaustive", "bvh"}) {
     auto strategy = m_world.ours().d_strategy.getValue();
     m_world.ours().d_strategy.setValue(strategy.setSelectedItem(name));
     EXPECT_EQ(m_world.runBoth(m_method), (Numbers{{1, 0}, {3, 2}})) << name;
   }
+}
+
+TEST_F(SofaSettings, AWordThatIsNoStrategyIsAnErrorAndTheDefaultIsUsed) {
+  for (const std::string word : {"exhaustve", "BVH", "2x", "3", ""}) {
+    messages() = {};
+    m_world.ours().parseField("strategy", "bvh");
+    m_world.ours().parseField("strategy", word);
+    EXPECT_EQ(m_world.ours().d_strategy.getValue().getSelectedId(), 0U) << word;
+    EXPECT_THAT(messages().errors, ElementsAre(HasSubstr("'strategy' is '" + word + "', not")));
+  }
+  messages() = {};
+  for (const std::string word : {"automatic", "1", "bvh", "@/other.strategy"})
+    m_world.ours().parseField("strategy", word);
+  EXPECT_THAT(messages().errors, IsEmpty());
+}
+
+TEST_F(SofaSettings, AStrategyThatIsLinkedToOneOfMoreChoicesIsAnErrorAndTheDefaultIsUsed) {
+  using sofa::helper::OptionsGroup;
+  const sofa::core::objectmodel::DataDefault<OptionsGroup> choices{OptionsGroup{"a", "b", "c", "d"}};
+  sofa::core::objectmodel::Data<OptionsGroup> other(choices);
+  other.read("d");
+  m_world.ours().d_strategy.setParent(&other);
+  EXPECT_EQ(m_world.runBoth(m_method), (Numbers{{1, 0}, {3, 2}}));
+  EXPECT_THAT(messages().errors, ElementsAre(HasSubstr("choice 3 of 'strategy'")));
 }
 
 TEST_F(SofaSettings, ThreadsThatMakeNoSenseAreAnErrorAndOneIsUsed) {
@@ -93,6 +125,16 @@ TEST_F(SofaSettings, VerifySaysNothingWhereTheListsAreTheSame) {
   m_world.ours().d_verify.setValue(true);
   m_world.runBoth(m_method);
   runWithBox({2.0, 0.0, 0.0}, {5.0, 1.0, 1.0});
+  EXPECT_THAT(messages().errors, IsEmpty());
+}
+
+TEST_F(SofaSettings, VerifyTakesTheBoxThatWasReadLastAndNotTheOneThatIsYetToBeRead) {
+  runWithBox({2.0, 0.0, 0.0}, {5.0, 1.0, 1.0});
+  m_world.ours().d_box.setValue({});
+  m_world.ours().d_verify.setValue(true);
+  EXPECT_EQ(m_world.run(m_world.ours(), m_method), (Numbers{{3, 2}}));
+  m_world.ours().reinit();
+  EXPECT_EQ(m_world.runBoth(m_method), (Numbers{{1, 0}, {3, 2}}));
   EXPECT_THAT(messages().errors, IsEmpty());
 }
 

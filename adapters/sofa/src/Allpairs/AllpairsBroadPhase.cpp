@@ -7,6 +7,7 @@
 #include <sofa/core/ObjectFactory.h>
 #include <sofa/core/collision/Intersection.h>
 
+#include <iterator>
 #include <string>
 #include <utility>
 #include <vector>
@@ -45,9 +46,12 @@ struct AllpairsBroadPhase::State {
   std::vector<sofa::core::CollisionModel*> taking;  // of the models that are being added, those that take part
   std::size_t collected = 0;                        // how many of the phase's pairs are in the component's list
   CubeCollisionModel::SPtr region;
+  unsigned strategy = 0;
   int threads = 1;
   std::unique_ptr<Executor> executor;
-  Stock::SPtr stock;  // SOFA's own, while `verify` is on
+  // SOFA's own, for `verify`; always there, since its box is the one that was there when the settings were read.
+  Stock::SPtr stock = sofa::core::objectmodel::New<Stock>();
+  bool verifies = false;
   bool differed = false;
 };
 
@@ -66,13 +70,26 @@ void AllpairsBroadPhase::init() { reinit(); }
 
 void AllpairsBroadPhase::reinit() {
   readRegion();
-  m_state->stock.reset();
+  m_state->stock->findData("box")->copyValueFrom(&d_box);
+  m_state->stock->reinit();
+}
+
+/// SOFA takes any word as a choice: one that is no name as the number that it begins with, which is 0 where it begins
+/// with none.
+bool AllpairsBroadPhase::parseField(const std::string& attribute, const std::string& value) {
+  const bool isRead = Inherit1::parseField(attribute, value);
+  if (attribute != "strategy" || value.starts_with('@')) return isRead;
+  auto strategy = d_strategy.getValue();
+  if (value == strategy.getSelectedItem() || value == std::to_string(strategy.getSelectedId())) return isRead;
+  msg_error() << "'strategy' is '" << value << "', not automatic, exhaustive or bvh; automatic is used";
+  d_strategy.setValue(strategy.setSelectedItem("automatic"));
+  return false;
 }
 
 void AllpairsBroadPhase::readRegion() {
   const Region& box = d_box.getValue();
   m_state->region.reset();
-  if (box[0][0] < box[1][0]) {
+  if (!(box[0][0] >= box[1][0])) {  // as SOFA compares them: a NaN is a region
     m_state->region = sofa::core::objectmodel::New<CubeCollisionModel>();
     m_state->region->resize(1);
     m_state->region->setParentOf(0, box[0], box[1]);
@@ -83,6 +100,14 @@ void AllpairsBroadPhase::readRegion() {
                 << (m_state->region ? "; as in BruteForceBroadPhase it is in force"
                                     : "; as in BruteForceBroadPhase it "
                                       "is not in force");
+}
+
+void AllpairsBroadPhase::readStrategy() {
+  const unsigned choice = d_strategy.getValue().getSelectedId();
+  const bool isOurs = choice < std::size(kStrategies);  // a link may bring choices of another component
+  if (!isOurs) msg_error() << "there is no choice " << choice << " of 'strategy'; automatic is used";
+  m_state->phase.setStrategy(isOurs ? kStrategies[choice] : Strategy::Automatic);
+  m_state->strategy = choice;
 }
 
 void AllpairsBroadPhase::readThreads() {
@@ -102,25 +127,17 @@ void AllpairsBroadPhase::readThreads() {
   m_state->threads = threads;  // else the next step tries again
 }
 
-void AllpairsBroadPhase::readVerify() {
-  if (!d_verify.getValue()) m_state->stock.reset();
-  if (!d_verify.getValue() || m_state->stock) return;
-  m_state->stock = sofa::core::objectmodel::New<Stock>();
-  m_state->stock->findData("box")->copyValueFrom(&d_box);
-  m_state->stock->init();
-}
-
 void AllpairsBroadPhase::beginBroadPhase() {
   Inherit1::beginBroadPhase();
   State& state = *m_state;
   if (d_threads.getValue() != state.threads) readThreads();
-  readVerify();
+  if (d_strategy.getValue().getSelectedId() != state.strategy) readStrategy();
+  state.verifies = d_verify.getValue();
   state.phase.beginBroadPhase();
-  state.phase.setStrategy(kStrategies[d_strategy.getValue().getSelectedId()]);
   state.models.begin();
   state.collected = 0;
   state.differed = false;
-  if (state.stock) state.stock->beginBroadPhase();
+  if (state.verifies) state.stock->beginBroadPhase();
 }
 
 void AllpairsBroadPhase::endBroadPhase() {
@@ -155,7 +172,7 @@ void AllpairsBroadPhase::addAll(sofa::core::CollisionModel* const* models, std::
   state.phase.setIntersectionMethod(&state.methods.choose(*intersectionMethod, state.models));
   for (collision::HostedModel* model : added) state.phase.addCollisionModel(model);
   collectPairs();
-  if (!state.stock) return;
+  if (!state.verifies) return;
   state.stock->setIntersectionMethod(intersectionMethod);
   for (std::size_t i = 0; i < count; ++i) state.stock->addCollisionModel(models[i]);
   comparePairs();

@@ -8,6 +8,7 @@
 #include <sofa/type/fixed_array.h>
 
 #include <memory>
+#include <string>
 
 namespace allpairs::plugin {
 
@@ -42,6 +43,9 @@ class ALLPAIRS_SOFA_API AllpairsBroadPhase : public sofa::core::collision::Broad
   /// Reads the settings again.
   void reinit() override;
 
+  /// Reads one setting from a scene's text.
+  bool parseField(const std::string& attribute, const std::string& value) override;
+
   void beginBroadPhase() override;
   void addCollisionModel(sofa::core::CollisionModel* cm) override;
   void addCollisionModels(const sofa::type::vector<sofa::core::CollisionModel*>& models) override;
@@ -60,8 +64,8 @@ class ALLPAIRS_SOFA_API AllpairsBroadPhase : public sofa::core::collision::Broad
   struct State;
 
   void readRegion();
+  void readStrategy();
   void readThreads();
-  void readVerify();
   [[nodiscard]] bool isInRegion(sofa::core::CollisionModel& model) const;
   void addAll(sofa::core::CollisionModel* const* models, std::size_t count);
   void collectPairs();

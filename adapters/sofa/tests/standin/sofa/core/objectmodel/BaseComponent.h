@@ -6,6 +6,7 @@
 #include <sofa/helper/Messages.h>
 
 #include <map>
+#include <sstream>
 #include <string>
 #include <utility>
 
@@ -15,6 +16,7 @@ namespace sofa::core::objectmodel {
 class BaseData : public DDGNode {
  public:
   virtual bool copyValueFrom(const BaseData* other) = 0;
+  virtual bool read(const std::string& text) = 0;
 
   /// Takes its value from another of the same type from now on.
   void setParent(BaseData* parent) {
@@ -58,6 +60,14 @@ class Data : public BaseData {
   bool copyValueFrom(const BaseData* other) override {
     setValue(static_cast<const Data<T>*>(other)->getValue());
     return true;
+  }
+  bool read(const std::string& text) override {
+    std::istringstream stream(text);
+    if constexpr (requires { stream >> m_value; }) {
+      stream >> *beginEdit();
+      endEdit();
+    }
+    return !stream.fail();
   }
 
  private:
@@ -121,6 +131,10 @@ class Base {
   [[nodiscard]] BaseData* findData(const std::string& name) const {
     const auto found = m_data.find(name);
     return found == m_data.end() ? nullptr : found->second;
+  }
+  virtual bool parseField(const std::string& attribute, const std::string& value) {
+    BaseData* data = findData(attribute);
+    return data != nullptr && data->read(value);
   }
   [[nodiscard]] std::string getPathName() const { return "/" + m_name; }
   void setName(const std::string& name) { m_name = name; }
