@@ -186,12 +186,12 @@ std::size_t run(unsigned seed, int steps, const std::string& broadPhaseClass) {
 int main(int argc, char** argv) {
   try {
     if (argc < 4) throw std::invalid_argument("usage: sofa-changing-models SCENES STEPS CLASS [PLUGIN...]");
+    const int scenes = allpairs::tools::countOf("SCENES", argv[1]);
+    const int steps = allpairs::tools::countOf("STEPS", argv[2]);
     allpairs::tools::loadPlugins({argv + 4, argv + argc});
     std::size_t pairs = 0;
-    const int scenes = std::stoi(argv[1]);
-    for (int scene = 0; scene < scenes; ++scene)
-      pairs += run(static_cast<unsigned>(scene), std::stoi(argv[2]), argv[3]);
-    std::printf("%d scenes of %s steps, two methods: %zu pairs, all lists the same\n", scenes, argv[2], pairs);
+    for (int scene = 0; scene < scenes; ++scene) pairs += run(static_cast<unsigned>(scene), steps, argv[3]);
+    std::printf("%d scenes of %d steps, two methods: %zu pairs, all lists the same\n", scenes, steps, pairs);
     return 0;
   } catch (const std::exception& problem) {
     std::fprintf(stderr, "changing-models: %s\n", problem.what());

@@ -10,11 +10,14 @@
 #include <map>
 #include <string>
 
+#include "Json.h"
 #include "SceneRun.h"
 
 namespace {
 
 using allpairs::tools::BroadPhase;
+using allpairs::tools::jsonNumber;
+using allpairs::tools::quoted;
 using allpairs::tools::SceneRun;
 using sofa::component::collision::geometry::Cube;
 using sofa::component::collision::geometry::CubeCollisionModel;
@@ -22,17 +25,17 @@ using sofa::core::CollisionModel;
 
 using Numbers = std::map<const CollisionModel*, std::size_t>;
 
-std::string quoted(const std::string& text) {
-  constexpr unsigned char kFirstPrintable = 0x20;
-  std::string result = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') result += '\\';
-    result += static_cast<unsigned char>(c) < kFirstPrintable ? '?' : c;
-  }
-  return result + '"';
-}
-
 const char* yesOrNo(bool value) { return value ? "true" : "false"; }
+
+template <class Corner>
+std::string jsonCorner(const Corner& corner) {
+  std::string result = "[";
+  for (sofa::Size axis = 0; axis < 3; ++axis) {
+    if (axis > 0) result += ", ";
+    result += jsonNumber(static_cast<double>(corner[axis]));
+  }
+  return result + "]";
+}
 
 /// The root box, or null where there are no elements or no pipeline and nobody else has made one.
 void printBox(CollisionModel& model) {
@@ -42,11 +45,7 @@ void printBox(CollisionModel& model) {
     return;
   }
   const Cube cube(root, 0);
-  const auto& low = cube.minVect();
-  const auto& high = cube.maxVect();
-  std::printf("[[%.17g, %.17g, %.17g], [%.17g, %.17g, %.17g]]", static_cast<double>(low[0]),
-              static_cast<double>(low[1]), static_cast<double>(low[2]), static_cast<double>(high[0]),
-              static_cast<double>(high[1]), static_cast<double>(high[2]));
+  std::printf("[%s, %s]", jsonCorner(cube.minVect()).c_str(), jsonCorner(cube.maxVect()).c_str());
 }
 
 void printGroups(const CollisionModel& model) {
@@ -66,7 +65,8 @@ void print(CollisionModel& model) {
               yesOrNo(model.isActive()), yesOrNo(model.isMoving()), yesOrNo(model.isSimulated()),
               yesOrNo(model.getSelfCollision()));
   printGroups(model);
-  std::printf("], \"contactDistance\": %.17g, \"box\": ", static_cast<double>(model.getContactDistance()));
+  std::printf("], \"contactDistance\": %s, \"box\": ",
+              jsonNumber(static_cast<double>(model.getContactDistance())).c_str());
   printBox(model);
   std::printf("}");
 }

@@ -19,12 +19,6 @@ namespace {
 
 using sofa::core::objectmodel::BaseComponent;
 
-/// The value of the option at i, which is moved on to it.
-std::string valueOf(int argc, char** argv, int& i) {
-  if (i + 1 >= argc) throw std::invalid_argument(std::string(argv[i]) + " needs a value");
-  return argv[++i];
-}
-
 bool isLoaded(sofa::helper::system::PluginManager::PluginLoadStatus status) {
   using Status = sofa::helper::system::PluginManager::PluginLoadStatus;
   return status == Status::SUCCESS || status == Status::ALREADY_LOADED;
@@ -40,28 +34,6 @@ BroadPhase::SPtr makeBroadPhase(sofa::core::objectmodel::BaseContext& context, c
 }
 
 }  // namespace
-
-Settings readSettings(int argc, char** argv) {
-  Settings settings;
-  for (int i = 1; i < argc; ++i) {
-    const std::string argument = argv[i];
-    if (argument == "--steps") {
-      settings.steps = std::stoi(valueOf(argc, argv, i));
-    } else if (argument == "--plugin") {
-      settings.plugins.push_back(valueOf(argc, argv, i));
-    } else if (argument == "--data") {
-      settings.dataFolders.push_back(valueOf(argc, argv, i));
-    } else if (argument == "--broad-phase") {
-      settings.broadPhases.push_back(valueOf(argc, argv, i));
-    } else if (settings.scene.empty() && argument.front() != '-') {
-      settings.scene = argument;
-    } else {
-      throw std::invalid_argument("unknown argument " + argument);
-    }
-  }
-  if (settings.scene.empty()) throw std::invalid_argument("which scene?");
-  return settings;
-}
 
 void loadPlugins(const std::vector<std::string>& names) {
   sofa::simulation::common::init();

@@ -10,23 +10,11 @@
 #include <string>
 #include <vector>
 
+#include "Settings.h"
+
 namespace allpairs::tools {
 
 using BroadPhase = sofa::core::collision::BroadPhaseDetection;
-
-/// What the programs of this folder are told.
-struct Settings {
-  std::string scene;
-  std::vector<std::string> plugins;
-  std::vector<std::string> dataFolders;
-  std::vector<std::string> broadPhases;
-  int steps = 200;
-};
-
-/// Reads: SCENE [--steps N] [--plugin NAME]... [--data FOLDER]... [--broad-phase CLASS]...
-///
-/// Bad input: throws std::invalid_argument that names the argument.
-[[nodiscard]] Settings readSettings(int argc, char** argv);
 
 /// Makes SOFA ready, and loads plugins of it.
 ///

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Runs a scene of SOFA with several broad phases in the place of its own, each first in its turn: prints how long each
 // of them takes a step, in processor time of the calling thread and in elapsed time, and whether all give the same
-// lists.
+// lists; ends with 1 if they do not.
 #include <algorithm>
 #include <cstdio>
 #include <exception>
@@ -48,6 +48,11 @@ void print(const Contest& contest) {
   for (const Contestant& contestant : contest.contestants()) print(contestant);
 }
 
+bool haveSameLists(const Contest* contest) {
+  const auto& contestants = contest->contestants();
+  return std::all_of(contestants.begin(), contestants.end(), [](const Contestant& c) { return c.sameLists; });
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -59,7 +64,7 @@ int main(int argc, char** argv) {
     const std::vector<Contest*> contests = enterAll(run, settings.broadPhases);
     for (int step = 0; step < settings.steps; ++step) run.step();
     for (const Contest* contest : contests) print(*contest);
-    return 0;
+    return std::all_of(contests.begin(), contests.end(), haveSameLists) ? 0 : 1;
   } catch (const std::exception& problem) {
     std::fprintf(stderr, "time-broad-phases: %s\n", problem.what());
     return 2;
