@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Runs a scene of SOFA, with its own broad phase or with another, and prints each step's pairs in order and the
 // positions at the end, all digits of them, in lines that begin with "step", "pair" and "state". Two runs that print
-// the same such lines have found the same.
+// the same such lines have found the same. Lines that begin with "class" say first which broad phases they are.
 #include <sofa/core/CollisionModel.h>
 
 #include <cstdio>
@@ -13,6 +13,12 @@ namespace {
 
 using allpairs::tools::BroadPhase;
 using allpairs::tools::SceneRun;
+
+void printClasses(const SceneRun& run) {
+  for (BroadPhase* phase : run.broadPhases()) {
+    std::printf("class %s %s\n", phase->getClassName().c_str(), phase->getPathName().c_str());
+  }
+}
 
 void printPairs(int step, const SceneRun& run) {
   for (BroadPhase* phase : run.broadPhases()) {
@@ -41,6 +47,7 @@ int main(int argc, char** argv) {
   try {
     const auto settings = allpairs::tools::readSettings(argc, argv);
     SceneRun run(settings, settings.broadPhases.empty() ? std::string() : settings.broadPhases.front());
+    printClasses(run);
     for (int step = 0; step < settings.steps; ++step) {
       run.step();
       printPairs(step, run);
