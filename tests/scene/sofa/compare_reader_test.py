@@ -41,9 +41,11 @@ class CompareReader(unittest.TestCase):
     def program(self, name, outputs):
         """A program that prints what belongs to the scene that it is given, and ends with that status."""
         file = self.path / name
-        file.write_text(f"#!{sys.executable}\nimport sys\nfrom pathlib import Path\n"
+        file.write_text(f"#!{sys.executable}\nimport os, sys, time\nfrom pathlib import Path\n"
                         f"scene = next(Path(a).name for a in sys.argv[1:] if a.endswith('.scn'))\n"
                         f"out, err, status = {outputs!r}[scene]\n"
+                        "if out == 'hang': time.sleep(600)\n"
+                        "if status < 0: os.kill(os.getpid(), -status)\n"
                         "print(out)\nprint(err, file=sys.stderr)\nsys.exit(status)\n")
         os.chmod(file, file.stat().st_mode | stat.S_IXUSR)
         return file
@@ -53,6 +55,8 @@ class CompareReader(unittest.TestCase):
         return json.loads(printed.splitlines()[1])
 
     def compare(self, sofa, reader, *options):
+        for scene in (self.path / "scenes" / "deep").iterdir():
+            scene.unlink()
         for scene in sofa:
             (self.path / "scenes" / "deep" / scene).write_text("<Node/>")
         done = subprocess.run([SCRIPT, "--list-models", self.program("sofa", sofa), "--allpairs",
@@ -95,6 +99,39 @@ class CompareReader(unittest.TestCase):
         empty = {**MODEL, "elements": 0, "box": [["inf"] * 3, ["-inf"] * 3]}
         none = {**MODEL, "elements": 0, "box": None}
         self.assertEqual(self.verdict(sofa_prints([none], []), reader_prints([empty], [])), (0, "same"))
+
+    def test_boxes_may_hold_infinities_and_nans(self):
+        odd = {**MODEL, "box": [["nan", 0, "-inf"], ["nan", 1, "inf"]]}
+        other = {**MODEL, "box": [["nan", 0, 0], ["nan", 1, "inf"]]}
+        self.assertEqual(self.verdict(sofa_prints([odd], []), reader_prints([odd], [])), (0, "same"))
+        self.assertEqual(self.verdict(sofa_prints([odd], []), reader_prints([other], [])),
+                         (1, "DIFFERS in `/A/model`: box [nan, 0, -inf] to [nan, 1, inf], [nan, 0, 0] to [nan, 1, inf]"))
+        self.assertEqual(self.verdict(sofa_prints([odd], []), reader_prints([MODEL], []))[0], 1)
+
+    def test_what_is_no_json_is_said_and_the_table_goes_on(self):
+        sofa = {"a.scn": ('{"models": [{"box": [[-nan, 0, 0]]}]}', "", 0), "b.scn": (sofa_prints([MODEL], []), "", 0),
+                "c.scn": (sofa_prints([MODEL], []), "", 0)}
+        ours = (reader_prints([MODEL], []), "", 0)
+        status, text = self.compare(sofa, {"a.scn": ours, "b.scn": ours, "c.scn": ("{", "", 0)})
+        self.assertEqual(status, 1)
+        self.assertIn("/a.scn |  |  | cannot load: what is listed is no JSON: ", text)
+        self.assertIn("/b.scn | 1 | 0 | same |", text)
+        self.assertIn("/c.scn | 1 | 0 | FAILS: what the reader prints is no JSON: ", text)
+
+    def test_a_reader_that_neither_reads_nor_refuses_fails(self):
+        sofa = (sofa_prints([MODEL], []), "", 0)
+        status, text = self.compare({"a.scn": sofa, "b.scn": sofa}, {"a.scn": ("", "usage", 2), "b.scn": ("", "", -11)})
+        self.assertEqual(status, 1)
+        self.assertIn("/a.scn | 1 | 0 | FAILS: the reader ends with 2: usage |", text)
+        self.assertIn("/b.scn | 1 | 0 | FAILS: the reader ends with signal 11 |", text)
+        self.assertIn("0 are refused by the reader, which fails with 2.", text)
+        status, text = self.compare({"a.scn": sofa}, {"a.scn": ("hang", "", 0)}, "--timeout", "5")
+        self.assertEqual(status, 1)
+        self.assertIn("/a.scn | 1 | 0 | FAILS: more than 5 s |", text)
+
+    def test_nothing_compared_is_an_error_of_its_own(self):
+        self.assertEqual(self.compare({"a.scn": ("", "no luck", 1)}, {"a.scn": ("", "", 0)})[0], 2)
+        self.assertEqual(self.compare({}, {})[0], 2)
 
     def test_what_differs_with_a_warning_says_so(self):
         warned = reader_prints([MODEL], [], warnings=[{"reason": "a device moves it"}])
