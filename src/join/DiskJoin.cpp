@@ -13,11 +13,8 @@
 #include <system_error>
 #include <utility>
 
-#ifdef __GLIBC__
-#include <malloc.h>
-#endif
-
 #include "CellJoin.h"
+#include "FreedMemory.h"
 #include "PairMerge.h"
 #include "allpairs/StopFlag.h"
 #include "allpairs/scene/FileError.h"
@@ -39,13 +36,6 @@ template <class Id>
 std::string headerFor(std::uint64_t pairs) {
   const std::string order = std::endian::native == std::endian::little ? "<" : ">";
   return scene::npyHeader(order + (sizeof(Id) == 4 ? "u4" : "u8"), std::array<std::uint64_t, 2>{pairs, 2});
-}
-
-/// A step's memory is the next one's: what was freed goes back to the system where the C library would keep it.
-void releaseFreedMemory() {
-#ifdef __GLIBC__
-  ::malloc_trim(0);
-#endif
 }
 
 std::string megabytes(std::uint64_t bytes) { return std::to_string((bytes >> 20) + 1) + " MiB"; }

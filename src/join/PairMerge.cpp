@@ -8,6 +8,7 @@
 #include <system_error>
 #include <utility>
 
+#include "FreedMemory.h"
 #include "allpairs/scene/FileError.h"
 
 namespace allpairs::join {
@@ -89,6 +90,7 @@ void PairMerge<Id>::merge(std::span<const Run> runs, Receiver receive) {
     if (group.pairs == 0) continue;
     if (!fits(group)) {
       divideRange(runs, group.begin, receive);
+      releaseFreedMemory();
       continue;
     }
     reserve(groups);
@@ -248,6 +250,7 @@ void PairMerge<Id>::divideRange(std::span<const Run> runs, std::size_t range, Re
   release(m_pairs);
   release(m_seconds);
   release(m_begins);
+  releaseFreedMemory();
   const RemovedAfter removed{m_scratch};
   RunFile file{WorkFile(m_scratch, WorkFile::Mode::Create)};
   std::vector<Run> divided;
@@ -262,6 +265,7 @@ void PairMerge<Id>::divideRange(std::span<const Run> runs, std::size_t range, Re
     });
     divided = writer.finish();
   }
+  releaseFreedMemory();
   PairMerge inner(parts, m_boxes, m_memory, file.file, m_scratch.string() + "-", m_stop);
   inner.merge(divided, receive);
 }
