@@ -53,8 +53,9 @@ std::string planText(const join::JoinSummary& plan, const JoinArguments& argumen
   text += fmt::format("copies   {} of boxes in more than one cell\n", grouped(plan.copies));
   text += fmt::format("wide     {} in many cells, kept apart\n", grouped(plan.wideBoxes));
   text += fmt::format("pairs    about {}\n", grouped(plan.pairs));
-  text +=
-      fmt::format("disk     {} for boxes, about {} for pairs\n", mebibytes(plan.boxBytes), mebibytes(plan.pairBytes));
+  text += fmt::format("disk     {} for boxes, about {} for pairs", mebibytes(plan.boxBytes), mebibytes(plan.pairBytes));
+  if (plan.scratchBytes != 0) text += fmt::format(", {} to put them in order", mebibytes(plan.scratchBytes));
+  text += '\n';
   return text + fmt::format("result   about {}\n", mebibytes(plan.pairBytes));
 }
 

@@ -189,15 +189,17 @@ JoinSummary planFiles(Span<const fs::path> inputs, const JoinOptions& options) {
   BoxInput input(inputs, options);
   const Budget budget = budgetOf(options, input);
   const Division division = Divider(input, options, budget).divide();
+  const std::size_t pairSize = pairSizeFor(input.largestSize());
   return {.boxes = input.size(),
           .pairs = division.pairs,
           .cells = division.cells.size(),
           .copies = division.copies(),
           .wideBoxes = division.wideBoxes(),
           .boxBytes = division.records() * input.recordType().size(),
-          .pairBytes = division.pairBytes(pairSizeFor(input.largestSize())),
+          .pairBytes = division.pairBytes(pairSize),
           .secondBoxes = input.size(1),
-          .empty = division.empty};
+          .empty = division.empty,
+          .scratchBytes = division.scratchBytes(pairSize, budget.mergeBytes)};
 }
 
 RanksPlan planRanks(Span<const fs::path> inputs, std::size_t ranks, const JoinOptions& options) {

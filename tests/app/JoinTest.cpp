@@ -7,6 +7,7 @@
 #include <fstream>
 #include <iterator>
 #include <limits>
+#include <regex>
 #include <string>
 #include <vector>
 
@@ -235,6 +236,18 @@ TEST_F(JoinCommand, WrongUsageIsSaid) {
                 "--memory: '63M' is less than the least, 64M");
   expectFailure(runProgram({"join", in("missing.npy"), "--count"}), kBadInput, "missing.npy: no such file");
   EXPECT_FALSE(fs::exists(in("missing.npy.work")));
+}
+
+/// Thirty boxes overlap all, and their pairs are more than the memory holds.
+TEST_F(JoinCommand, APlanSaysWhatPuttingPairsInOrderTakes) {
+  std::vector<Box> all = toDouble(randomBoxes(120'000, 33));
+  for (std::size_t i = 0; i < 30; ++i) all[i] = {{-1e6, -1e6, -1e6}, {1e6, 1e6, 1e6}};
+  const std::string file = folder.write("all.npy", npyBytes(all, {.descr = "<f4"})).string();
+  const auto planned = [this](const std::string& name) {
+    return runProgram({"plan", name, "--memory", "64M", "--work", folder.path()}).out;
+  };
+  EXPECT_TRUE(std::regex_search(planned(file), std::regex("for pairs, 2[78] MiB to put them in order\n")));
+  EXPECT_EQ(planned(few).find("order"), std::string::npos);
 }
 
 TEST_F(JoinCommand, APlanLeavesNothing) {

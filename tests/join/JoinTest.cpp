@@ -147,6 +147,22 @@ TEST(Join, APlanSaysWhatAJoinThenDoes) {
   EXPECT_NEAR(static_cast<double>(plan.pairs), static_cast<double>(done.pairs), 0.1 * static_cast<double>(done.pairs));
 }
 
+/// Thirty boxes of one range overlap all: their pairs are more than the memory holds.
+TEST(Join, APlanSaysWhatPuttingPairsInOrderTakes) {
+  constexpr std::size_t kLarge = 30;
+  std::vector<Box> boxes = toDouble(randomBoxes(120'000, 13));
+  const JoinCase without(boxes);
+  join::JoinOptions options = without.options();
+  options.memory = kLeastMemory;
+  EXPECT_EQ(planFiles(without.paths, options).scratchBytes, 0U);
+  for (std::size_t i = 0; i < kLarge; ++i) boxes[i] = {{-kInfinity, 0, 0}, {kInfinity, 1e6, 1e6}};
+  const JoinCase with(boxes);
+  const std::uint64_t copied = kLarge * boxes.size() * sizeof(Pair);
+  const std::uint64_t scratch = planFiles(with.paths, options).scratchBytes;
+  EXPECT_GT(scratch, copied * 9 / 10);
+  EXPECT_LT(scratch, copied * 11 / 10);
+}
+
 /// They are sent to no cell.
 TEST(Join, EmptyBoxesDoNotCountAmongCopies) {
   std::vector<Box> boxes = toDouble(randomBoxes(300'000, 13));

@@ -90,6 +90,9 @@ struct JoinSummary {
   std::uint64_t resumedCells = 0;            ///< Cells whose pairs were found before, of a join that was resumed.
   std::uint64_t secondBoxes = 0;             ///< How many of the boxes are those of the second set.
   std::array<scene::EmptyBoxes, 2> empty{};  ///< Of each set, in no pair.
+  /// In a plan, what copies of pairs take in the work folder besides while they are put in order, at most at once; 0
+  /// where they fit in memory.
+  std::uint64_t scratchBytes = 0;
 };
 
 /// Receives the bytes of a result, in order.
@@ -111,7 +114,7 @@ using ResultSink = FunctionRef<void(std::string_view)>;
 ///            categories and masks, and 8 per pair (16 of more than 2^32 boxes in a set); as many per pair for the
 ///            result, on the disk of options.output; and where boxes have more pairs than memory holds, about as much
 ///            again as these pairs take while they are put in order, or twice, or of very many boxes in little memory
-///            three times (docs/scale.md). Where a disk is estimated to be too small it throws before it writes.
+///            three times (docs/scale.md; planFiles() says how much). Where a disk is estimated to be too small it throws before it writes.
 /// Resume:    what is complete is in a manifest, which is replaced atomically, with checksums of the files; a file that
 ///            was damaged is made again, and a manifest that was throws FileError. So do inputs of another size or time
 ///            of change than before. The result's bytes are the same.
