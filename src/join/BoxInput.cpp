@@ -24,6 +24,16 @@ BoxView viewOf(const scene::BoxRows& file, std::uint64_t begin, std::span<const 
   }
 }
 
+/// Reads some boxes here and there, up to one that is none: all are read in order besides, which throws for the first.
+template <class Read>
+void upToABadBox(const Read& read) {
+  try {
+    read();
+  } catch (const FileError& problem) {
+    if (problem.code()) throw;  // of the system
+  }
+}
+
 }  // namespace
 
 SetValues::SetValues(const scene::BoxValueFiles& files, std::uint64_t boxes) {
@@ -94,8 +104,10 @@ void BoxInput::forEachBlock(Visitor visit) { readEach(kBlock, kBlock, visit); }
 BoxSample BoxInput::sample(std::size_t count) {
   BoxSample sample{.type = {.hasMargins = m_type.hasMargins}};
   const std::uint64_t step = size() <= count ? kNeighbors : size() / std::max<std::uint64_t>(count / kNeighbors, 1);
-  readEach(step, kNeighbors, [&sample](const BoxBlock& block) {
-    for (std::size_t i = 0; i < block.boxes.size(); ++i) sample.add(block, i);
+  upToABadBox([&] {
+    readEach(step, kNeighbors, [&sample](const BoxBlock& block) {
+      for (std::size_t i = 0; i < block.boxes.size(); ++i) sample.add(block, i);
+    });
   });
   return sample;
 }
@@ -138,11 +150,13 @@ void BoxInput::readEachAs(std::uint64_t step, std::uint64_t most, Visitor visit)
 }
 
 void BoxInput::forEachProbe(std::size_t count, Visitor visit) {
-  if (m_type.isFloat64) {
-    readProbesAs<double>(count, visit);
-  } else {
-    readProbesAs<float>(count, visit);
-  }
+  upToABadBox([&] {
+    if (m_type.isFloat64) {
+      readProbesAs<double>(count, visit);
+    } else {
+      readProbesAs<float>(count, visit);
+    }
+  });
 }
 
 template <class Number>

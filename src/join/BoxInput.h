@@ -93,6 +93,7 @@ class BoxInput {
   void forEachBlock(Visitor visit);
 
   /// About `count` boxes with their margins, spread over the files; all boxes if there are fewer.
+  /// Those before a bad one, for which forEachBlock() throws; likewise of probes.
   [[nodiscard]] BoxSample sample(std::size_t count);
 
   /// Visits `count` boxes of each set one by one, with all they have; all of a set if there are fewer. Each is

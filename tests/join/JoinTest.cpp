@@ -243,6 +243,21 @@ TEST(Join, BadInputIsNamedAndNothingIsWritten) {
   EXPECT_THROW(joinFiles(std::vector{with.folder.path() / "missing.npy"}, output), FileError);
 }
 
+/// Of many it is the first, though some are looked at before all are read in order.
+TEST(Join, TheFirstBoxThatIsNoneIsNamed) {
+  for (const std::size_t count : {3'000U, 100'000U}) {
+    std::vector<Box> boxes = toDouble(randomBoxes(count, 15));
+    for (std::size_t i = 1'001; i < count; ++i) boxes[i].min[0] = kNan;
+    const JoinCase with(boxes);
+    try {
+      (void)countFiles(with.paths, with.options());
+      ADD_FAILURE() << "nothing was thrown";
+    } catch (const FileError& problem) {
+      EXPECT_EQ(problem.problem(), "box 1001: min x is not a number (NaN)") << count;
+    }
+  }
+}
+
 TEST(Join, AFolderThatIsNotThereIsNotMade) {
   const JoinCase with(toDouble(randomBoxes(10, 16)));
   const std::filesystem::path missing = with.folder.path() / "missing";

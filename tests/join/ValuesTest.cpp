@@ -3,6 +3,7 @@
 // each way of cutting, dividing and merging is taken, against the double loop.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -421,6 +422,10 @@ TEST(Values, BadInputIsNamed) {
   refused(with, options, "first margins0.npy: has 33 margins for 100 boxes");
   options.values.margins = with.paths;
   refused(with, options, "boxes0.npy: has shape (100, 6); margins are (n,)");
+  BoxesWith many = anyBoxes(random, 3'000);
+  std::fill(many.margins.begin() + 5, many.margins.end(), kNan);
+  const ValuesCase withMany(many);
+  refused(withMany, withMany.options(), "first margins0.npy: margin 5 is a NaN");
 }
 
 TEST(Values, SettingsThatMakeNoSenseAreRefused) {
