@@ -61,6 +61,14 @@ void requireRoomIn(const fs::path& folder, std::uint64_t bytes, const std::strin
                   std::make_error_code(std::errc::no_space_on_device));
 }
 
+/// Whether a folder has that name, which may be a link to nothing.
+bool isListed(const fs::path& folder, const fs::path& name) {
+  std::error_code unknown;
+  const fs::file_status found = fs::symlink_status(folder / name, unknown);
+  if (!fs::status_known(found)) throw FileError::ofSystem(folder, "cannot be read", unknown);
+  return fs::exists(found);
+}
+
 /// The scratch files of ranges that were divided, and divided again: a join that was killed leaves some of them.
 constexpr std::string_view kDivided = "divided";
 
@@ -148,8 +156,7 @@ bool DiskJoin::tryToOpenFolder() {
   if (problem) throw FileError::ofSystem(m_options.work, "cannot be read", problem);
   const bool isOurs = std::find(names.begin(), names.end(), kLock) != names.end();
   if (!isOurs && !names.empty()) {
-    const bool isOther = fs::exists(file(kLock), problem) || !fs::exists(m_options.work / names.front(), problem);
-    if (problem) throw FileError::ofSystem(m_options.work, "cannot be read", problem);
+    const bool isOther = isListed(m_options.work, kLock) || !isListed(m_options.work, names.front());
     if (isOther) return false;  // a join that began meanwhile, or ended
     throw FileError(m_options.work, "is not empty, and not the work folder of a join");
   }

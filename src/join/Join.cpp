@@ -64,7 +64,7 @@ class PartFile {
 
   void write(std::string_view bytes) {
     underTarget([&] {
-      if (!m_isThere) m_file = WorkFile(m_part, WorkFile::Mode::CreateAnew);
+      if (!m_isThere) m_file = WorkFile(m_part, WorkFile::Mode::Create);
       m_isThere = true;
       m_file.write(m_position, bytes.data(), bytes.size());
     });

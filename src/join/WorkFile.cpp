@@ -23,8 +23,8 @@ namespace {
 int opened(const std::filesystem::path& path, WorkFile::Mode mode) {
   constexpr mode_t kPermissions = 0666;  // less what the umask takes away
   int flags = O_RDWR | O_CLOEXEC;
-  if (mode == WorkFile::Mode::Create) flags |= O_CREAT | O_TRUNC;
-  if (mode == WorkFile::Mode::CreateAnew) {
+  if (mode == WorkFile::Mode::CreateOrOpen) flags |= O_CREAT | O_NOFOLLOW;
+  if (mode == WorkFile::Mode::Create) {
     flags |= O_CREAT | O_EXCL;
     if (::unlink(path.c_str()) != 0 && errno != ENOENT) return -1;
   }
@@ -40,7 +40,7 @@ WorkFile::WorkFile(const std::filesystem::path& path, Mode mode) : m_path(path),
 std::optional<WorkFile> WorkFile::unlessFolderIsGone(const std::filesystem::path& path) {
   WorkFile file;
   file.m_path = path;
-  file.m_descriptor = opened(path, Mode::Create);
+  file.m_descriptor = opened(path, Mode::CreateOrOpen);
   if (file.m_descriptor < 0 && errno == ENOENT) return std::nullopt;
   if (file.m_descriptor < 0) file.fail("opened");
   return file;

@@ -17,8 +17,8 @@ namespace allpairs::join {
 class WorkFile {
  public:
   enum class Mode {
-    Create,
-    CreateAnew,  ///< Removes what is there, which may be a link.
+    Create,        ///< Removes what is there, which may be a link.
+    CreateOrOpen,  ///< Takes what is there, as it is; a link throws FileError.
     Open,
   };
 

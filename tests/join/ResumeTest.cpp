@@ -226,6 +226,39 @@ TEST(Resume, AFolderWithOtherFilesIsLeftAlone) {
   EXPECT_EQ(bytesOfFile(with.options().work / "boxes"), "mine");
 }
 
+/// What another hand has put there is no join that ended meanwhile, where it leads nowhere too.
+TEST(Resume, AFolderWithALinkToNothingIsLeftAlone) {
+  for (const char* target : {"/nowhere/at/all", "link"}) {
+    JoinCase with(someBoxes());
+    fs::create_directories(with.options().work);
+    fs::create_symlink(target, with.options().work / "link");
+    try {
+      (void)with.run(resuming(with));
+      ADD_FAILURE() << "nothing was thrown";
+    } catch (const FileError& problem) {
+      EXPECT_EQ(problem.problem(), "is not empty, and not the work folder of a join") << target;
+    }
+    EXPECT_TRUE(fs::is_symlink(with.options().work / "link"));
+  }
+}
+
+TEST(Resume, LinksInPlaceOfItsFilesAreNotWrittenThrough) {
+  for (const char* name : {"manifest.next", "boxes", "pairs", "divided", "allpairs-join.lock"}) {
+    JoinCase with(someBoxes());
+    const fs::path precious = with.folder.write("precious", "mine");
+    fs::create_directories(with.options().work);
+    std::ofstream(with.options().work / "allpairs-join.lock").close();
+    fs::remove(with.options().work / name);
+    fs::create_symlink(precious, with.options().work / name);
+    if (name == std::string("allpairs-join.lock")) {
+      EXPECT_THROW((void)with.run(with.options()), FileError);
+    } else {
+      EXPECT_TRUE(with.run(with.options()) == expectedBytes(someBoxes())) << name;
+    }
+    EXPECT_EQ(bytesOfFile(precious), "mine") << name;
+  }
+}
+
 TEST(Resume, ADamagedManifestIsAnError) {
   JoinCase with(someBoxes());
   stoppedWhileWriting(with);
