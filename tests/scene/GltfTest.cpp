@@ -261,5 +261,28 @@ TEST(Gltf, OnlyWeightsThatMoveAnythingAreRemarked) {
   EXPECT_EQ(remarks("0, 0", "1, 0"), 1U);
 }
 
+std::string glb(std::string json) {
+  json.resize((json.size() + 3) / 4 * 4, ' ');
+  std::string bytes = "glTF";
+  for (const std::size_t number : {std::size_t{2}, json.size() + 20, json.size()})
+    appendNumber(bytes, static_cast<std::uint32_t>(number), false);
+  return bytes + "JSON" + json;
+}
+
+TEST(Gltf, WhatStandsBehindTheLengthOfABinaryFileIsNotLost) {
+  const auto read = [](const std::string& bytes) {
+    const TempFolder folder;
+    return scene::readInput(folder.write("a.glb", bytes));
+  };
+  const std::string bytes =
+      glb(R"({"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}], "meshes": )"
+          R"([{"primitives": [{"attributes": {"POSITION": 0}}]}], "accessors": [{"componentType": 5126, "count": 3, )"
+          R"("type": "VEC3"}]})");
+  EXPECT_EQ(read(bytes).models.size(), 1U);
+  EXPECT_EQ(read(bytes + "\n").models.size(), 1U) << "filling";
+  expectFileError([&] { (void)read(bytes + bytes); },
+                  "a.glb: has " + std::to_string(bytes.size()) + " bytes behind what its header promises");
+}
+
 }  // namespace
 }  // namespace allpairs::test

@@ -118,6 +118,16 @@ TEST(PlyMesh, FilesCutAnywhereAreRefused) {
   }
 }
 
+TEST(PlyMesh, WhatStandsBehindTheEndOfABinaryFileIsNotLost) {
+  const std::string bytes = binary(false);
+  const std::string face = bytes.substr(bytes.size() - 17);
+  expectFileError([&] { (void)read(bytes + bytes); },
+                  "mesh.ply: has " + std::to_string(bytes.size()) + " bytes behind");
+  expectFileError([&] { (void)read(bytes + face); }, "mesh.ply: has 17 bytes behind what its header promises");
+  for (const std::string& filling : {std::string("\n"), std::string(100, '\0'), std::string(" \r\n")})
+    EXPECT_EQ(namesOf(read(bytes + filling)), "mesh.ply TTriangleModel 2\n");
+}
+
 TEST(PlyMesh, HugeClaimsEndWithTheFile) {
   const std::string huge =
       "element vertex 18446744073709551615\nproperty float x\nproperty float y\nproperty float z\n";

@@ -89,6 +89,15 @@ TEST(StlMesh, BinaryFilesMayEndInZeros) {
   }
 }
 
+TEST(StlMesh, WhatStandsBehindTheFacetsOfABinaryFileIsNotLost) {
+  const std::string bytes = binaryStl("", kTwoFacets);
+  expectStlProblem(bytes + bytes, "mesh.stl: has 184 bytes behind the 2 facets that its header promises");
+  expectStlProblem(bytes + bytes, "a binary STL file holds one solid");
+  expectStlProblem(bytes + solid("a", facetText("0 1 0")), "a binary STL file holds one solid");
+  expectStlProblem(bytes + std::string(51, 'x'), "mesh.stl: has 51 bytes behind the 2 facets that its header promises");
+  EXPECT_EQ(namesOf(readStl(bytes + std::string(60, ' ') + "\r\n")), "mesh.stl TTriangleModel 2\n") << "blanks";
+}
+
 TEST(StlMesh, FilesCutAnywhereAreRefused) {
   const TempFolder folder;
   const std::string text = solid("a", facetText("0 1 0") + facetText("0 0 1"));

@@ -95,6 +95,15 @@ std::string readText(const std::filesystem::path& path, const StopFlag* stop) {
   return text;
 }
 
+bool isFilling(std::string_view rest) {
+  return std::all_of(rest.begin(), rest.end(), [](char c) { return c == '\0' || isBlankOrLineEnd(c); });
+}
+
+void requireFilling(std::string_view rest, const std::filesystem::path& path) {
+  if (!isFilling(rest))
+    throw FileError(path, "has " + std::to_string(rest.size()) + " bytes behind what its header promises");
+}
+
 void removeByteOrderMark(std::string& text) {
   constexpr std::string_view kMark = "\xef\xbb\xbf";
   if (text.starts_with(kMark)) text.erase(0, kMark.size());

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <string_view>
 
 #include "allpairs/StopFlag.h"
 
@@ -47,6 +48,13 @@ void requireFile(const std::filesystem::path& path);
 
 /// The whole file as text.
 [[nodiscard]] std::string readText(const std::filesystem::path& path, const StopFlag* stop = nullptr);
+
+/// Whether what stands behind the end that a file's header promises fills it up, and holds nothing: zeros, blanks and
+/// ends of lines.
+[[nodiscard]] bool isFilling(std::string_view rest);
+
+/// Throws FileError where it is more.
+void requireFilling(std::string_view rest, const std::filesystem::path& path);
 
 /// Takes off the mark with which some programs begin a text in UTF-8.
 void removeByteOrderMark(std::string& text);

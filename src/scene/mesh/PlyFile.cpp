@@ -28,9 +28,9 @@ class PlyBody {
 
   double next(PlyType type) { return m_encoding == PlyEncoding::Ascii ? nextWord() : nextBinary(type); }
 
-  /// A text ends with its last number; behind the last byte of a binary file there may be anything.
+  /// Nothing is left out that stands behind the last number.
   void checkEnd() {
-    if (m_encoding != PlyEncoding::Ascii) return;
+    if (m_encoding != PlyEncoding::Ascii) return requireFilling(m_text, m_path);
     skipBlanks();
     if (!m_text.empty()) fail("has more than its header promises");
   }

@@ -39,17 +39,23 @@ bool isBinary(std::string_view text) {
   return first == std::string_view::npos || lowerCase(text.substr(first, 5)) != "solid";
 }
 
+/// What stands behind the facets may be no geometry: some programs add a few bytes, too few for a facet.
+void checkRest(std::string_view rest, std::uint32_t count, const Path& path) {
+  if (rest.size() < kFacetSize || isFilling(rest)) return;
+  if (rest.size() % kFacetSize == 0)
+    throw FileError(path, "has " + std::to_string(count + rest.size() / kFacetSize) + " facets where its header says " +
+                              std::to_string(count));
+  throw FileError(path, "has " + std::to_string(rest.size()) + " bytes behind the " + std::to_string(count) +
+                            " facets that its header promises; a binary STL file holds one solid");
+}
+
 std::vector<MeshObject> readBinary(std::string_view text, const Path& path, ReadScope& scope) {
   if (text.size() < kHeaderSize) throw FileError(path, "is too short for an STL file");
   if (text.size() < binarySize(text))
     throw FileError(path, "truncated: the header promises " + std::to_string(binarySize(text)) +
                               " bytes, the file has " + std::to_string(text.size()));
   const std::uint32_t count = littleEndian<std::uint32_t>(text.substr(kHeaderSize - 4));
-  const std::uint64_t surplus = text.size() - binarySize(text);
-  const bool isPadding = text.substr(binarySize(text)).find_first_not_of('\0') == std::string_view::npos;
-  if (!isPadding && surplus % kFacetSize == 0)
-    throw FileError(path, "has " + std::to_string(count + surplus / kFacetSize) + " facets where its header says " +
-                              std::to_string(count));
+  checkRest(text.substr(binarySize(text)), count, path);
   if (count > std::numeric_limits<std::uint32_t>::max() / 3) throw FileError(path, "has too many facets");
   scope.takeElements(count, 3 * sizeof(Point) + sizeof(MeshObject::triangles[0]));
   MeshObject object;

@@ -112,6 +112,7 @@ void GltfDocument::readChunks() {
     fail("truncated: the header promises " + std::to_string(length) + " bytes, the file has " +
          std::to_string(rest.size()));
   }
+  requireFilling(rest.substr(length), m_path);
   rest = rest.substr(kGlbHeader, std::max<std::size_t>(length, kGlbHeader) - kGlbHeader);
   bool hasJson = false;
   while (rest.size() >= kChunkHeader) {
