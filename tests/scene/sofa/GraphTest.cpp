@@ -281,6 +281,19 @@ TEST_F(SofaGraph, ComponentsWithoutANameAreNumberedByTheirClassInEachNodeOfNewer
   EXPECT_EQ(pathsOf(readIn("<BVHNarrowPhase/>" + text))[0], "/A/tTriangleModel1");
 }
 
+TEST_F(SofaGraph, TheBroadPhaseOfThisProjectInPlaceOfSofasMakesNoSceneOlder) {
+  const auto pathWith = [&](const std::string& text) {
+    return pathsOf(readIn(text + "<Node name='A'><MechanicalObject/><MeshTopology/><Triangle/></Node>"))[0];
+  };
+  const std::string newer = "/A/TriangleCollisionModel1";
+  EXPECT_EQ(pathWith("<BruteForceBroadPhase/>"), newer);
+  EXPECT_EQ(pathWith("<AllpairsBroadPhase/>"), newer);
+  EXPECT_EQ(pathWith("<RequiredPlugin pluginName='Allpairs'/>"), newer);
+  EXPECT_EQ(pathWith("<RequiredPlugin name='Allpairs'/>"), newer);
+  EXPECT_EQ(pathWith("<RequiredPlugin pluginName='SofaPython Allpairs'/>"), newer) << "any of several";
+  EXPECT_EQ(pathWith("<RequiredPlugin pluginName='AllpairsOfOthers'/>"), "/A/tTriangleModel1");
+}
+
 TEST_F(SofaGraph, NodesWithoutANameHaveNoneInNewerSofa) {
   m_sofa = SofaVersion::Sofa2612;
   const auto text = R"(<MechanicalObject/><Node><PointModel name="a"/><Node name="N"><PointModel name="b"/><Node>

@@ -7,18 +7,29 @@
 #include <string_view>
 #include <unordered_map>
 
+#include "input/Words.h"
+
 namespace allpairs::scene::sofa {
 namespace {
 
 bool isNew(const Component& component) {
-  static constexpr std::array<std::string_view, 10> kNewNames{
-      "BruteForceBroadPhase",        "BVHNarrowPhase",       "ParallelBruteForceBroadPhase",
-      "ParallelBVHNarrowPhase",      "RayTraceNarrowPhase",  "CompositeCollisionPipeline",
-      "FixedProjectiveConstraint",   "SubCollisionPipeline", "MeshOBJLoader",
-      "TriangleOctreeCollisionModel"};
+  static constexpr std::array<std::string_view, 11> kNewNames{"AllpairsBroadPhase",
+                                                              "BruteForceBroadPhase",
+                                                              "BVHNarrowPhase",
+                                                              "ParallelBruteForceBroadPhase",
+                                                              "ParallelBVHNarrowPhase",
+                                                              "RayTraceNarrowPhase",
+                                                              "CompositeCollisionPipeline",
+                                                              "FixedProjectiveConstraint",
+                                                              "SubCollisionPipeline",
+                                                              "MeshOBJLoader",
+                                                              "TriangleOctreeCollisionModel"};
   if (std::ranges::find(kNewNames, component.type) != kNewNames.end()) return true;
   if (component.type != "RequiredPlugin") return false;
-  return component.attributes.value("pluginName", component.name).starts_with("Sofa.");
+  std::string_view plugins = component.attributes.value("pluginName", component.name);
+  for (std::string_view plugin = takeWord(plugins); !plugin.empty(); plugin = takeWord(plugins))
+    if (plugin == "Allpairs" || plugin.starts_with("Sofa.")) return true;
+  return false;
 }
 
 /// Names that SOFA 24.12 and 26.06 dropped (its Sofa.Helper, ComponentChange.cpp); those of collision models have a
