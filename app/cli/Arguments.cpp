@@ -33,13 +33,6 @@ std::string describeOrder(const Box& box) {
   return {};
 }
 
-/// --distance under its name of before, with or without its number.
-std::string byTodaysName(std::string_view argument) {
-  constexpr std::string_view kBefore = "--margin";
-  const bool isBefore = argument == kBefore || argument.starts_with("--margin=");
-  return isBefore ? "--distance" + std::string(argument.substr(kBefore.size())) : std::string(argument);
-}
-
 /// Before what stands behind "--" and begins like an option.
 constexpr std::string_view kNoOption = "././";
 
@@ -84,8 +77,8 @@ std::vector<std::string> joinNumbers(int count, const char* const* arguments) {
       for (++i; i < count; ++i) joined.push_back(asPath(arguments[i]));
       break;
     }
-    joined.push_back(byTodaysName(argument));
-    const bool takesNumbers = joined.back() == "--distance" || argument == "--box" || argument == "--clearance";
+    joined.emplace_back(argument);
+    const bool takesNumbers = argument == "--distance" || argument == "--box" || argument == "--clearance";
     if (takesNumbers && i + 1 < count && !std::string_view(arguments[i + 1]).starts_with("--")) {
       joined.back() += '=';
       joined.back() += arguments[++i];

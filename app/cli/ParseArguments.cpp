@@ -43,6 +43,18 @@ std::vector<std::string> commandNames(const CLI::App& program) {
   return names;
 }
 
+/// What was meant by an option that does not exist. A margin is of one box, so --margin could be either of two.
+std::string hintFor(const std::string& name, std::vector<std::string> names) {
+  const auto has = [&names](const char* option) {
+    return std::find(names.begin(), names.end(), option) != names.end();
+  };
+  if (!has("--distance")) return suggestionFor(name, names);
+  if (name == "--margin" && has("--margins")) return " - did you mean --distance or --margins?";
+  names.emplace_back("--margin");
+  const std::string hint = suggestionFor(name, names);
+  return hint.ends_with("--margin?") ? suggestionFor("--distance", names) : hint;
+}
+
 /// What an argument that nothing takes should have been.
 std::string describeExtra(const CLI::App& program) {
   const auto chosen = program.get_subcommands();
@@ -56,13 +68,10 @@ std::string describeExtra(const CLI::App& program) {
   std::vector<std::string> names;
   for (const CLI::Option* known : command.get_options()) {
     for (const std::string& text : known->get_lnames()) names.push_back("--" + text);
-    if (names.back() == "--distance") names.emplace_back("--margin");  // its name of before is taken too
   }
   if (std::find(names.begin(), names.end(), name) != names.end())
     return "the option '" + name + "' comes behind '" + command.get_name() + "'";
-  std::string hint = suggestionFor(name, names);
-  if (hint.ends_with("--margin?")) hint = suggestionFor("--distance", names);
-  return "unknown option '" + name + "'" + hint;
+  return "unknown option '" + name + "'" + hintFor(name, names);
 }
 
 /// CLI11 says "Could not convert: --name = text". All that it converts are numbers, and what a flag is given.

@@ -111,9 +111,6 @@ TEST(DetectBoxes, ADistanceAddsPairsAndANegativeOneTakesSomeAway) {
     expectSuccess(apart);
     EXPECT_EQ(pairsOfNpy(apart.out), oracle(boxes, distance));
     EXPECT_TRUE(apart.out == joined.out);
-    // The name that the option had before.
-    EXPECT_TRUE(apart.out == runProgram({"detect", path, "--format", "npy", "--margin", text}).out);
-    EXPECT_TRUE(apart.out == runProgram({"detect", path, "--format", "npy", "--margin=" + text}).out);
   }
 }
 

@@ -89,6 +89,12 @@ TEST(MistypedWords, GetASuggestionWhereTheyResembleOne) {
   };
   expectUsage({"detect", "--distnce", "1", "a.npy"}, "unknown option '--distnce' - did you mean --distance? (see");
   expectUsage({"detect", "--margn", "1", "a.npy"}, "unknown option '--margn' - did you mean --distance? (see");
+  expectUsage({"detect", "a.npy", "--margin", "1"}, "unknown option '--margin' - did you mean --distance? (see");
+  expectUsage({"detect", "a.npy", "--margin=-1"}, "unknown option '--margin' - did you mean --distance? (see");
+  for (const char* command : {"join", "plan"})
+    expectUsage({command, "a.npy", "--margin", "m.npy"},
+                "unknown option '--margin' - did you mean --distance or --margins? (see");
+  expectUsage({"bench", "uniform", "--margin", "1"}, "unknown option '--margin' (see");
   expectUsage({"detect", "--dist", "1", "a.npy"}, "unknown option '--dist' - did you mean --distance? (see");
   expectUsage({"detect", "a.npy", "--treads=2"}, "unknown option '--treads' - did you mean --threads? (see");
   expectUsage({"track", "a.npy", "--verfy"}, "unknown option '--verfy' - did you mean --verify? (see");
