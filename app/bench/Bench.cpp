@@ -19,11 +19,14 @@
 #include "allpairs/Overlaps.h"
 #include "allpairs/parallel/TbbExecutor.h"
 #include "allpairs/scene/BoxArray.h"
+#include "allpairs/scene/EmptyBoxes.h"
+#include "allpairs/scene/Scene.h"
 #include "bench/BenchReport.h"
 #include "cli/ExitStatus.h"
 #include "cli/Options.h"
 #include "cli/Output.h"
 #include "cli/Text.h"
+#include "cli/Warning.h"
 #include "detect/Detection.h"
 #include "generate/SceneArguments.h"
 
@@ -72,7 +75,9 @@ struct Boxes {
 Boxes load(const BenchSettings& settings) {
   if (isSceneName(settings.scene.scene))
     return {.rows = generate::makeBoxes(sceneRequest(settings.scene)), .array = {}};
-  return {.rows = {}, .array = scene::readBoxArray(settings.scene.scene)};
+  Boxes boxes{.rows = {}, .array = scene::readBoxArray(settings.scene.scene)};
+  for (const scene::Remark& warning : scene::boxWarnings(boxes.array, settings.scene.scene)) warn(textOf(warning));
+  return boxes;
 }
 
 OverlapOptions overlapOptions(const BenchSettings& settings, Executor* executor) {

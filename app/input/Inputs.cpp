@@ -12,7 +12,6 @@
 #include <system_error>
 #include <utility>
 
-#include "allpairs/collision/BoxModel.h"
 #include "allpairs/scene/FileError.h"
 #include "allpairs/scene/ReadInput.h"
 #include "allpairs/scene/TargetFile.h"
@@ -55,11 +54,10 @@ BoxInput readBoxArrays(const InputSettings& settings, const scene::ReadOptions& 
   for (const std::string& path : settings.paths) {
     arrays.push_back(scene::readBoxArray(path, options));
     const scene::BoxArray& boxes = arrays.back();
-    scene::EmptyBoxes empty;
-    empty.look(boxes.boxes(), 0);
-    if (empty.count != 0)
-      input.warnings.push_back(
-          scene::emptyRemark(empty, shownPath(settings, path), boxes.name(static_cast<std::size_t>(empty.first))));
+    for (scene::Remark& warning : scene::boxWarnings(boxes, path)) {
+      warning.file = shownPath(settings, path);
+      input.warnings.push_back(std::move(warning));
+    }
     const auto group = static_cast<std::uint32_t>(arrays.size());
     if (settings.betweenInputs) input.groups.insert(input.groups.end(), boxes.size(), group);
   }
@@ -74,21 +72,9 @@ void nameAsGiven(const SpooledInputs& spooled, scene::Scene& scene) {
   for (scene::Remark& warning : scene.warnings) warning.file = spooled.shown(warning.file);
 }
 
-/// The box of a model that was made of a row of a file.
-Box boxAsRead(const collision::CollisionModel& model) {
-  return dynamic_cast<const collision::BoxModel&>(model).boxes().front();
-}
-
 scene::Scene readScene(const InputSettings& settings, std::size_t input, const scene::ReadOptions& options) {
   const std::string& path = settings.paths[input];
   scene::Scene scene = scene::readInput(path, options);
-  if (scene::isBoxArrayFile(path)) {
-    scene::EmptyBoxes empty;
-    for (std::size_t i = 0; i < scene.models.size(); ++i) empty.look(boxAsRead(*scene.models[i]), i);
-    if (empty.count != 0)
-      scene.warnings.push_back(
-          scene::emptyRemark(empty, path, scene.models[static_cast<std::size_t>(empty.first)]->getName()));
-  }
   for (const auto& model : scene.models) {
     if (settings.betweenInputs) model->addGroup(static_cast<int>(input) + 1);
   }

@@ -146,9 +146,7 @@ LoadedScene::LoadedScene(const std::filesystem::path& path, const scene::ReadOpt
   std::error_code ignored;
   if (scene::isBoxArrayFile(path) && !std::filesystem::is_directory(path, ignored)) {
     m_boxArray.emplace(scene::readBoxArray(path, options));
-    scene::EmptyBoxes empty;
-    empty.look(m_boxArray->boxes(), 0);
-    if (empty.count != 0) m_scene.warnings.push_back(scene::emptyRemark(empty, path, m_boxArray->name(empty.first)));
+    m_scene.warnings = scene::boxWarnings(*m_boxArray, path);
   } else {
     m_scene = withRootBoxes(scene::readInput(path, options));
     for (const auto& model : m_scene.models) append(m_rootBoxes, scene::modelRecord(*model).box);

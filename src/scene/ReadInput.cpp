@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "allpairs/collision/BoxModel.h"
+#include "allpairs/scene/EmptyBoxes.h"
 #include "allpairs/scene/FileError.h"
 #include "allpairs/scene/ReadSofaScene.h"
 #include "input/FileBytes.h"
@@ -37,6 +38,7 @@ Scene readBoxes(const std::filesystem::path& path, const ReadOptions& options) {
   scope.take(ReadScope::kBytesPerModel * boxes.size());
   Scene scene = toScene(boxes);
   scene.inputs = scope.files();
+  scene.warnings = boxWarnings(boxes, path);
   noteSources(scene, path);
   return scene;
 }

@@ -55,6 +55,26 @@ TEST(BoxWithMinAboveMax, IsNamedInJson) {
   }
 }
 
+TEST(AFileOfTextWithoutBoxes, IsNamedInAWarning) {
+  const TempFolder folder;
+  const std::string page = folder.path() / "page.html";
+  for (const char* text : {"", "# nothing\n", "name,minx,miny,minz,maxx,maxy,maxz\n"}) {
+    const std::string csv = folder.write("none.csv", text);
+    const std::string line = "allpairs: warning: " + csv + ": holds no boxes\n";
+    const std::string mesh = folder.write("part.obj", "v 0 0 0\nv 1 0 0\nv 0 1 1\nf 1 2 3\n");
+    for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
+             {"detect", csv}, {"detect", csv, mesh}, {"view", csv, "-o", page}, {"bench", csv, "--repetitions", "1"}}) {
+      const ProgramRun run = runProgram(words);
+      EXPECT_EQ(run.status, 0) << words.front();
+      EXPECT_NE(run.err.find(line), std::string::npos) << words.front() << ": " << run.err;
+    }
+    EXPECT_NE(runProgram({"info", csv}).out.find("\nwarnings\n  " + csv + ": holds no boxes\n"), std::string::npos);
+    EXPECT_EQ(runScript("\"$0\" detect - --input-format csv < '" + csv + "'").err,
+              "allpairs: warning: standard input: holds no boxes\n");
+  }
+  expectSuccess(runProgram({"detect", folder.write("none.npy", npyBytes({}))}));
+}
+
 /// Boxes of two frames or worlds of three.
 std::string framesBytes() {
   const std::vector<Box> boxes{cube(0, 0, 0), cube(1, 1, 1),          kEmptyBox,

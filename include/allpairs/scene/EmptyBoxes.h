@@ -6,12 +6,14 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "allpairs/Box.h"
 #include "allpairs/BoxView.h"
 
 namespace allpairs::scene {
 
+class BoxArray;
 struct Remark;
 
 /// Counts boxes of which a minimum is above its maximum and both are finite, as after a mistake: they are empty, and in
@@ -44,7 +46,8 @@ struct EmptyBoxes {
 /// are.
 [[nodiscard]] std::string emptyReason(const EmptyBoxes& boxes);
 
-/// The warning of a file that has some; `name` is that of the first.
-[[nodiscard]] Remark emptyRemark(const EmptyBoxes& boxes, const std::filesystem::path& file, const std::string& name);
+/// What to warn of in the boxes of a file: that some of them are empty, and that a text has none, as one that was not
+/// written to its end. A .npy file without boxes says so in its shape.
+[[nodiscard]] std::vector<Remark> boxWarnings(const BoxArray& boxes, const std::filesystem::path& file);
 
 }  // namespace allpairs::scene

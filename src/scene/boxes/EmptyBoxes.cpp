@@ -2,7 +2,9 @@
 #include "allpairs/scene/EmptyBoxes.h"
 
 #include "allpairs/Error.h"
+#include "allpairs/scene/BoxArray.h"
 #include "allpairs/scene/Scene.h"
+#include "input/FileBytes.h"
 
 namespace allpairs::scene {
 
@@ -13,10 +15,15 @@ std::string emptyReason(const EmptyBoxes& boxes) {
   return reason + ": empty, in no pair";
 }
 
-Remark emptyRemark(const EmptyBoxes& boxes, const std::filesystem::path& file, const std::string& name) {
-  const std::string number = std::to_string(boxes.first);
+std::vector<Remark> boxWarnings(const BoxArray& boxes, const std::filesystem::path& file) {
+  if (boxes.size() == 0 && lowerExtension(file) == ".csv") return {{.file = file, .reason = "holds no boxes"}};
+  EmptyBoxes empty;
+  empty.look(boxes.boxes(), 0);
+  if (empty.count == 0) return {};
+  const std::string number = std::to_string(empty.first);
+  const std::string name = boxes.name(static_cast<std::size_t>(empty.first));
   const std::string subject = "box " + number + (name == number ? "" : " '" + name + "'");
-  return {.file = file, .subject = subject, .reason = emptyReason(boxes)};
+  return {{.file = file, .subject = subject, .reason = emptyReason(empty)}};
 }
 
 }  // namespace allpairs::scene
