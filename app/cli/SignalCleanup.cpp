@@ -18,11 +18,19 @@ struct Removed {
   mutable std::atomic<bool> isSet = true;
 };
 
+/// Likewise.
+struct Said {
+  std::string file;
+  std::string line;
+};
+
 // A signal handler sees nothing but what is global.
 std::atomic<const Removed*> newest = nullptr;  // NOLINT(cppcoreguidelines-avoid-non-const-global-variables)
+std::atomic<const Said*> said = nullptr;       // NOLINT(cppcoreguidelines-avoid-non-const-global-variables)
 std::atomic<StopFlag*> stopped = nullptr;      // NOLINT(cppcoreguidelines-avoid-non-const-global-variables)
 std::atomic<int> signalSeen = 0;               // NOLINT(cppcoreguidelines-avoid-non-const-global-variables)
-static_assert(std::atomic<const Removed*>::is_always_lock_free && std::atomic<bool>::is_always_lock_free);
+static_assert(std::atomic<const Removed*>::is_always_lock_free && std::atomic<bool>::is_always_lock_free &&
+              std::atomic<const Said*>::is_always_lock_free);
 
 /// Calls only what is safe in a handler.
 extern "C" void removeAndEnd(int signal) {
@@ -34,6 +42,9 @@ extern "C" void removeAndEnd(int signal) {
   for (const Removed* one = newest; one != nullptr; one = one->older) {
     if (one->isSet && ::unlink(one->path.c_str()) != 0) ::rmdir(one->path.c_str());
   }
+  const Said* const last = said;
+  if (last != nullptr && ::access(last->file.c_str(), F_OK) == 0) [[maybe_unused]]
+    const auto written = ::write(STDERR_FILENO, last->line.data(), last->line.size());
   std::signal(signal, SIG_DFL);
   std::raise(signal);
 }
@@ -51,6 +62,10 @@ void keepOnSignal(std::string_view path) noexcept {
   for (const Removed* one = newest; one != nullptr; one = one->older) {
     if (one->path == path) one->isSet = false;
   }
+}
+
+void sayOnSignal(std::string file, std::string line) {
+  said = std::make_unique<Said>(Said{std::move(file), std::move(line)}).release();
 }
 
 void installSignalCleanup() {

@@ -17,6 +17,9 @@ void removeOnSignal(std::string path);
 /// Undoes it, as for a file that is complete, or gone.
 void keepOnSignal(std::string_view path) noexcept;
 
+/// Says a line on standard error when a signal ends the program, if `file` is there then. The last call counts.
+void sayOnSignal(std::string file, std::string line);
+
 /// Takes these away on SIGINT, SIGTERM and SIGHUP, unless they are ignored, and ends as these signals do.
 void installSignalCleanup();
 

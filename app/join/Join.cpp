@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
@@ -10,6 +11,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "Commands.h"
@@ -20,6 +22,7 @@
 #include "cli/Options.h"
 #include "cli/Output.h"
 #include "cli/Progress.h"
+#include "cli/SignalCleanup.h"
 #include "cli/Text.h"
 #include "cli/Timer.h"
 #include "join/JoinArguments.h"
@@ -98,6 +101,17 @@ std::string summaryText(const join::JoinSummary& summary, const std::string& out
   return text + '\n';
 }
 
+/// What is left of a join that did not end.
+std::string goingOn(const std::filesystem::path& work) {
+  return "what is complete is in " + work.string() + ", and --resume goes on";
+}
+
+/// The same where a signal ends it, perhaps behind a line that shows progress.
+std::string goingOnLine(const std::filesystem::path& work) {
+  const std::string text = "allpairs: stopped; " + printable(goingOn(work)) + '\n';
+  return ::isatty(STDERR_FILENO) == 1 ? "\r\033[K" + text : text;
+}
+
 /// Whether a folder that the user has not named cannot be worked in, where another may do: inputs may lie where nobody
 /// may write.
 bool isForAnotherFolder(const FileError& problem, const std::filesystem::path& work) {
@@ -123,7 +137,10 @@ void runJoin(const JoinSettings& settings) {
   options.work = settings.work;
   if (options.work.empty()) options.work = (isFile ? settings.output : settings.shared.sets.paths.front()) + ".work";
   JoinLine line;
-  options.progress = [&line](const join::JoinProgress& progress) { line.show(progress); };
+  options.progress = [&line, &options, isInFolder = false](const join::JoinProgress& progress) mutable {
+    if (!std::exchange(isInFolder, true)) sayOnSignal(options.work, goingOnLine(options.work));
+    line.show(progress);
+  };
   join::JoinSummary summary;
   const std::vector<std::filesystem::path> inputs = pathsOf(settings.shared.sets.paths);
   try {
@@ -147,8 +164,7 @@ void runJoin(const JoinSettings& settings) {
     const bool isOfInput = std::find(read.begin(), read.end(), problem.path()) != read.end();
     if (isOfInput || problem.path() == options.work || problem.path() == manifest) throw;
     if (!std::filesystem::exists(manifest)) throw;
-    throw FileError(problem.path(),
-                    problem.problem() + "; what is complete is in " + options.work.string() + ", and --resume goes on");
+    throw FileError(problem.path(), problem.problem() + "; " + goingOn(options.work));
   }
   line.clear();
   warnOfEmpty(settings.shared, summary.empty);
