@@ -122,7 +122,8 @@ void addStrategy(CLI::App& command, std::string& strategy) {
 
 void addFormat(CLI::App& command, std::string& format, const std::vector<std::string>& formats) {
   addChoice(command, "--format", format, formats)
-      ->description(fmt::format("Output format; default: by the extension of FILE, else {}", formats.front()));
+      ->description(
+          fmt::format("Output format; default: by the extension of FILE; {} for .txt and for none", formats.front()));
 }
 
 std::string formatOf(const std::string& format, const std::string& output, const std::vector<std::string>& formats) {
