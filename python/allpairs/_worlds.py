@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from . import _arguments, _core, _settings
 from ._arguments import BoxesLike, Order, Strategy
-from ._errors import InvalidArgument
+from ._errors import InvalidArgument, InvalidBox
 from ._search import Pairs
 
 #: Where each world's pairs, or boxes, begin: one more than there are worlds.
@@ -88,12 +88,24 @@ def _margins(value: npt.ArrayLike | None, boxes: int, begin: npt.NDArray[np.uint
     return np.tile(array, worlds) if array.size == _equal_size(begin) and array.size * worlds == boxes else array
 
 
+def _in_world(problem: InvalidBox, size: int | None) -> InvalidBox:
+    """The problem of a box where it stands in worlds of equal size: its index counts the boxes of all."""
+    if not size:
+        return problem
+    box = f"box {problem.index}"
+    world = f"{box} (box {problem.index % size} of world {problem.index // size})"
+    return InvalidBox(str(problem).replace(box, world, 1), problem.index)
+
+
 def _prepared(values: dict[str, Any]) -> tuple[_core.Worlds, _core.Boxes | None, _core.Options]:
     """The worlds, the boxes that they share, if any, and the settings of a search, from the arguments of a function."""
     low, high, begin = _divided(values["lower"], values["upper"], values["offsets"])
     margin = _margins(values["margin"], low.shape[0] if low.ndim else 0, begin)
     depth = lambda: _arguments.depth_of(values["distance"], [margin])
-    boxes = _arguments.box_set(low, high, margin, depth, single=True)
+    try:
+        boxes = _arguments.box_set(low, high, margin, depth, single=True)
+    except InvalidBox as problem:
+        raise (_in_world(problem, _equal_size(begin)) if values["offsets"] is None else problem) from None
     others = None if values["shared"] is None else _shared(values["shared"], depth)
     names = ("the boxes of the worlds", "the shared ones")
     options = _settings.options_of(values, boxes.axes if others is None else _settings.common_axes(boxes, others, names))

@@ -66,7 +66,8 @@ endforeach()
 execute_process(COMMAND ${CMAKE_COMMAND} -S ${SOURCE} -B ${WORK}/unknown -G ${GENERATOR} -D PARTS=submarine
                         -D CMAKE_CXX_COMPILER=${COMPILER} ${found} RESULT_VARIABLE result ERROR_VARIABLE output
                         OUTPUT_QUIET)
-if(result EQUAL 0 OR NOT output MATCHES "the component submarine was not built")
+string(REGEX REPLACE "[ \n]+" " " output "${output}")
+if(result EQUAL 0 OR NOT output MATCHES "the component submarine does not exist; this package has: engine,")
   message(FATAL_ERROR "asking for an unknown component: ${result}\n${output}")
 endif()
 

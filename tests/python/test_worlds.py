@@ -156,8 +156,12 @@ def test_wrong_shapes_are_named():
         allpairs.overlaps_in_worlds(np.zeros((10, 2, 6)), group=[1, 2, 3])
     with pytest.raises(allpairs.InvalidArgument, match="in no world"):
         allpairs.overlaps_in_worlds(np.zeros((10, 2, 6)), ignore=[[0, 2]])
-    with pytest.raises(allpairs.InvalidBox, match="box 7"):
-        allpairs.overlaps_in_worlds(np.where(np.arange(60).reshape(5, 2, 6) == 43, np.nan, 0.0))
+    bad = np.where(np.arange(60).reshape(5, 2, 6) == 43, np.nan, 0.0)
+    with pytest.raises(allpairs.InvalidBox, match=r"^box 7 \(box 1 of world 3\): min y is not a number") as caught:
+        allpairs.overlaps_in_worlds(bad)
+    assert caught.value.index == 7
+    with pytest.raises(allpairs.InvalidBox, match="^box 7: min y"):
+        allpairs.count_in_worlds(bad.reshape(10, 6), offsets=[0, 9, 10])
 
 
 def test_masked_entries_are_refused_and_one_number_holds_for_all_boxes():
