@@ -126,9 +126,9 @@ struct TopicText {
 TopicText topicOf(const ViewScene& scene, const Clash& clash) {
   const std::string more =
       clash.inside.empty() ? "" : fmt::format(" It is the worst of {} pairs.", clash.inside.size() + 1);
-  TopicText topic{clash.guid, "Open", titleOf(scene, clash), findingOf(scene, clash) + more + beforeText(clash)};
+  TopicText topic{clash.guid, std::string(topicStatusOf(clash)), titleOf(scene, clash),
+                  findingOf(scene, clash) + more + beforeText(clash)};
   if (clash.since) topic.label = changeName(*clash.since);
-  if (clash.since == Change::Resolved) topic.status = "Closed";
   topic.type = topicTypeOf(clash);
   topic.number = clash.number;
   return topic;
@@ -260,6 +260,8 @@ std::string viewpoint(const ViewScene& scene, const Clash& clash, const BcfOptio
 }
 
 }  // namespace
+
+std::string_view topicStatusOf(const Clash& clash) { return clash.since == Change::Resolved ? "Closed" : "Open"; }
 
 std::string makeBcf(const ViewScene& scene, std::span<const Clash> clashes, const BcfOptions& options) {
   Zip archive(options.date);

@@ -5,6 +5,7 @@
 #include <functional>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "Clash.h"
 #include "Since.h"
@@ -21,6 +22,9 @@ struct BcfOptions {
   std::function<std::string(const Clash&)> picture;  ///< The bytes of a clash's PNG.
   std::span<const EarlierClash> gone{};              ///< Topics to close.
 };
+
+/// The status of the topic of a row: "Closed" of what is resolved, else "Open".
+[[nodiscard]] std::string_view topicStatusOf(const Clash& clash);
 
 /// The bytes of a BCF file: for each clash a topic with a viewpoint and a picture. Models with a GlobalId are named by
 /// it.

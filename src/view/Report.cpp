@@ -9,6 +9,7 @@
 #include <string_view>
 #include <utility>
 
+#include "Bcf.h"
 #include "PageTemplate.h"
 #include "Text.h"
 #include "allpairs/Error.h"
@@ -72,8 +73,9 @@ std::string pictureOf(const Report& report, const Clash& clash) {
 
 std::string figureOf(const Report& report, const Clash& clash) {
   const ViewScene& scene = report.scene;
-  std::string text = fmt::format("<figure id=\"clash-{}\" data-guid=\"{}\">{}<figcaption>{}. {}", clash.number,
-                                 clash.guid, pictureOf(report, clash), clash.number, namesOf(scene, clash));
+  std::string text =
+      fmt::format("<figure id=\"clash-{}\" data-guid=\"{}\" data-status=\"{}\">{}<figcaption>{}. {}", clash.number,
+                  clash.guid, topicStatusOf(clash), pictureOf(report, clash), clash.number, namesOf(scene, clash));
   text += fmt::format("<br><span class=\"fact\">{}{}</span>", badgeOf(clash),
                       escapeHtml(findingOf(scene, clash) + beforeText(clash)));
   text += partsOf(scene, clash);

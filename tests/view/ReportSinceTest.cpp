@@ -169,9 +169,12 @@ TEST(ReportSince, ComparesWhatWasAClashAndHowDeepItWas) {
     const pugi::xml_document document = parse(bytes);
     const pugi::xml_node topic = document.child("Markup").child("Topic");
     const std::string words = topic.child_value("Description");
+    const std::string status = topic.attribute("TopicStatus").value();
+    EXPECT_NE(page.find("data-guid=\"" + name.substr(0, name.find('/')) + "\" data-status=\"" + status + '"'),
+              std::string::npos)
+        << name;
     const std::size_t before = words.find(" Before: ");
-    topics[topic.child_value("Title")] = std::string(topic.attribute("TopicType").value()) + ' ' +
-                                         topic.attribute("TopicStatus").value() +
+    topics[topic.child_value("Title")] = std::string(topic.attribute("TopicType").value()) + ' ' + status +
                                          (before == std::string::npos ? "" : words.substr(before));
     if (before != std::string::npos) {
       EXPECT_NE(page.find(words.substr(before)), std::string::npos) << words;

@@ -212,7 +212,7 @@ TEST(ReportText, OfShapesAndBodiesIsThisPage) {
 <p><a href="view.html">Open it in 3D</a>; a picture opens its pair. Also in this folder: <a href="clashes.csv">)"
       R"(clashes.csv</a>, <a href="clashes.bcf">clashes.bcf</a>. The first 1 have pictures and are in the BCF file.</p>
 <section class="clashes">
-<figure id="clash-1" data-guid="guid0"><a href="view.html#pair=@1,@0" title="Open it in 3D">)"
+<figure id="clash-1" data-guid="guid0" data-status="Open"><a href="view.html#pair=@1,@0" title="Open it in 3D">)"
       R"(<img src="pictures/0001.png" alt="B&amp; and A" width="640" height="480" loading="lazy"></a><figcaption>1. )"
       R"(<span class="first">B&amp;</span><br><span class="second">A</span><br><span class="fact">IfcSlab idA</span><br>)"
       R"(<span class="fact"><span class="state clash">clash</span> <span class="state new">new</span> )"
@@ -308,12 +308,13 @@ TEST(ReportText, OfBoxesIsThisPage) {
 <p>Not in 3D: too &amp; much. Also in this folder: <a href="clashes.csv">clashes.csv</a>, <a href="clashes.bcf">)"
       R"(clashes.bcf</a>.</p>
 <section class="clashes">
-<figure id="clash-1" data-guid="guid1"><img src="pictures/0001.png" alt="1 and 0" width="640" height="480" )"
-      R"(loading="lazy"><figcaption>1. <span class="first">1</span><br><span class="second">0</span><br>)"
+<figure id="clash-1" data-guid="guid1" data-status="Open"><img src="pictures/0001.png" alt="1 and 0" width="640" )"
+      R"(height="480" loading="lazy"><figcaption>1. <span class="first">1</span><br><span class="second">0</span><br>)"
       R"(<span class="fact">The bounding boxes overlap by 1, 0.5, 0.25; they share a volume of 0.125.</span>)"
       R"(</figcaption></figure>
-<figure id="clash-2" data-guid="guid2"><img src="pictures/0002.png" alt="1 with itself" width="640" height="480" )"
-      R"(loading="lazy"><figcaption>2. <span class="first">1</span> with itself<br><span class="fact">)"
+<figure id="clash-2" data-guid="guid2" data-status="Open"><img src="pictures/0002.png" alt="1 with itself" )"
+      R"(width="640" height="480" loading="lazy"><figcaption>2. )"
+      R"(<span class="first">1</span> with itself<br><span class="fact">)"
       R"(The model may touch itself.</span></figcaption></figure>
 </section>
 <div class="scroll"><table>

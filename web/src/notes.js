@@ -28,9 +28,11 @@ function parsed(text) {
 
 /** Tells "change", with the GUID of the clash or null for all, when a note is another, in this window or another one. */
 export class Notes extends EventTarget {
-  constructor(report) {
+  /** `ownStatus` gives the status that the topic of a clash has by itself. */
+  constructor(report, ownStatus) {
     super();
     this.report = report;
+    this.ownStatus = ownStatus;
     this.unkept = new Map(); // where the browser keeps nothing
     this.isKept = true;
     addEventListener("storage", (event) => {
@@ -44,8 +46,18 @@ export class Notes extends EventTarget {
     this.dispatchEvent(event);
   }
 
-  /** The note on a clash, or null. */
+  /** The note on a clash, or null; where nobody chose a status, with the topic's own, which a later report may change. */
   of(guid) {
+    const note = this.kept(guid);
+    const isOwn = note?.isOwn ?? note?.status === statuses[0]; // notes from before had this one where nobody chose
+    return note && { ...note, status: isOwn ? this.ownStatus(guid) : note.status };
+  }
+
+  statusOf(guid) {
+    return this.of(guid)?.status ?? this.ownStatus(guid);
+  }
+
+  kept(guid) {
     if (this.unkept.has(guid)) return this.unkept.get(guid);
     try {
       return parsed(localStorage.getItem(prefix + guid));
@@ -57,8 +69,8 @@ export class Notes extends EventTarget {
   /** Notes it; one that says nothing is taken away. */
   set(guid, { status, comment }) {
     const before = this.of(guid);
-    const isNothing = status === statuses[0] && comment === "";
-    const note = isNothing ? null : { status, comment, guid: before?.guid ?? newGuid(), date: new Date().toISOString().replace(/\.\d+/, ""), report: this.report };
+    const isOwn = status === this.ownStatus(guid);
+    const note = isOwn && comment === "" ? null : { status, isOwn, comment, guid: before?.guid ?? newGuid(), date: new Date().toISOString().replace(/\.\d+/, ""), report: this.report };
     try {
       if (note) localStorage.setItem(prefix + guid, JSON.stringify(note));
       else localStorage.removeItem(prefix + guid);

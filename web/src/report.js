@@ -14,8 +14,8 @@ function make(tag, { label, ...properties } = {}, ...children) {
   return element;
 }
 
-const notes = new Notes(document.querySelector("h1").textContent);
 const cards = new Map(all("figure[data-guid]").map((card) => [card.dataset.guid, card]));
+const notes = new Notes(document.querySelector("h1").textContent, (guid) => cards.get(guid)?.dataset.status ?? statuses[0]);
 const captions = new Map([...cards].map(([guid, card]) => [guid, card.textContent.toLowerCase()])); // before fields are added
 const rows = all("tbody tr");
 const listed = new Set(rows.map((row) => row.dataset.guid)); // of many clashes the table has only the first
@@ -72,7 +72,7 @@ function showInRow(row) {
   const note = notes.of(guid);
   const isNoted = cards.has(guid);
   const status = row.querySelector(".status");
-  status.textContent = isNoted ? note?.status ?? statuses[0] : "";
+  status.textContent = isNoted ? notes.statusOf(guid) : "";
   if (isNoted) status.dataset.order = statuses.indexOf(status.textContent);
   row.querySelector(".comment").textContent = isNoted ? note?.comment ?? "" : "";
 }
@@ -80,7 +80,7 @@ function showInRow(row) {
 function showInCard(card) {
   const note = notes.of(card.dataset.guid);
   const [status, comment, origin] = ["select", "textarea", ".origin"].map((part) => card.querySelector(`.review ${part}`));
-  status.value = note?.status ?? statuses[0];
+  status.value = notes.statusOf(card.dataset.guid);
   if (comment.value !== (note?.comment ?? "")) comment.value = note?.comment ?? "";
   origin.textContent = note && note.report !== notes.report ? `noted in the report of ${note.report}` : "";
   origin.hidden = origin.textContent === "";
