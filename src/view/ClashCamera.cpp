@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <utility>
 
 #include "ClashPicture.h"
@@ -110,10 +111,12 @@ class Sighting {
   [[nodiscard]] RasterPoint project(const Vec3& p) const { return m_projection(p); }
 
   void draw(std::uint32_t model, Colour colour) {
-    const ProjectedTriangles triangles(m_scene.mesh, model, m_projection);
-    const std::size_t count = triangles.indices.size();
-    const std::size_t step = 3 * (count / 3 / kMostTriangles + 1);
-    for (std::size_t i = 0; i + 2 < count; i += step) m_raster.triangle(triangles.at(i), colour);
+    const ViewMesh& mesh = m_scene.mesh;
+    const std::span<const std::uint32_t> indices = partOf(mesh.triangles, mesh.triangleEnds, model);
+    const std::size_t step = 3 * (indices.size() / 3 / kMostTriangles + 1);
+    const auto corner = [&](std::size_t place) { return m_projection(vertexOf(mesh, indices[place])); };
+    for (std::size_t i = 0; i + 2 < indices.size(); i += step)
+      m_raster.triangle({corner(i), corner(i + 1), corner(i + 2)}, colour);
   }
 
   /// The share of the lines of contact that nothing is in front of.
