@@ -61,11 +61,14 @@ TEST(ReportOfIfc, BcfOfVersion30HasItsForm) {
   EXPECT_STREQ(parse(files.at("bcf.version")).child("Version").attribute("VersionId").value(), "3.0");
   EXPECT_EQ(childrenOf(parse(files.at("extensions.xml")).child("Extensions")),
             (Names{"TopicTypes", "TopicStatuses", "TopicLabels"}));
+  std::size_t topics = 0;
+  std::size_t cameras = 0;
   for (const auto& [name, bytes] : files) {
     const pugi::xml_document document =
         name.ends_with("markup.bcf") || name.ends_with(".bcfv") ? parse(bytes) : pugi::xml_document();
     const pugi::xml_node topic = document.child("Markup").child("Topic");
     if (topic) {
+      ++topics;
       EXPECT_EQ(childrenOf(document.child("Markup")), (Names{"Header", "Topic"}));
       EXPECT_EQ(childrenOf(topic),
                 (Names{"Title", "Index", "CreationDate", "CreationAuthor", "Description", "Viewpoints"}));
@@ -74,9 +77,12 @@ TEST(ReportOfIfc, BcfOfVersion30HasItsForm) {
     }
     const pugi::xml_node camera = document.child("VisualizationInfo").child("OrthogonalCamera");
     if (camera) {
+      ++cameras;
       EXPECT_NEAR(camera.child("AspectRatio").text().as_double(), 4.0 / 3.0, 1e-9);
     }
   }
+  EXPECT_EQ(topics, 1U);
+  EXPECT_EQ(cameras, 1U);
 }
 
 TEST(ReportOfIfc, ClassNameAndGlobalIdAreApart) {

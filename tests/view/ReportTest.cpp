@@ -151,11 +151,14 @@ TEST(Report, NamesAreTextInThePageAndInBcf) {
   const std::string page = readBytes(folder.path() / "out/index.html");
   EXPECT_EQ(page.find("<img src=x"), std::string::npos);
   EXPECT_NE(page.find("&lt;img src=x onerror=alert(1)&gt;"), std::string::npos);
+  std::size_t topics = 0;
   for (const auto& [file, bytes] : filesOf(folder.path() / "out/clashes.bcf")) {
     if (!file.ends_with("markup.bcf")) continue;
     const std::string title = parse(bytes).child("Markup").child("Topic").child_value("Title");
     EXPECT_EQ(title, "b & c and " + name);
+    ++topics;
   }
+  EXPECT_EQ(topics, 1U);
 }
 
 TEST(Report, ControlCharactersInANameAreReplacedInBcf) {
