@@ -104,10 +104,12 @@ export class App extends EventTarget {
     return this.isSelf ? [this.models[0], this.models[0]] : this.models.length === 2 ? this.models : null;
   }
 
-  /** If one model is chosen and is in a pair with this one: that pair. Else null. */
+  /** If one model is chosen and this one is a partner of it: their pair. Else null. */
   pairWith(model) {
-    const entry = this.models.length === 1 && this.models[0] !== model ? this.table.find(this.models[0], model) : -1;
-    return entry < 0 ? null : [this.table.first(entry), this.table.second(entry)];
+    const { table } = this;
+    const entry = this.models.length === 1 && this.models[0] !== model ? table.find(this.models[0], model) : -1;
+    const arePartners = entry >= 0 && entry < table.found && !table.isApart(entry);
+    return arePartners ? [table.first(entry), table.second(entry)] : null;
   }
 
   /** What shapes say of the pair that is chosen, or null. */

@@ -26,7 +26,10 @@ export class Timeline {
     byId("step-on").addEventListener("click", () => this.step(1));
     this.drawCounts();
     this.drawMarks();
-    app.addEventListener("frame", () => this.update());
+    app.addEventListener("frame", () => {
+      this.update();
+      if (this.timer && app.index !== this.due) this.restart(); // somebody chose another frame: it goes on from there
+    });
     this.update();
   }
 
@@ -93,14 +96,16 @@ export class Timeline {
     this.playButton.setAttribute("aria-label", "Pause");
     this.speed = Number(byId("speed").value);
     this.begin = { index: this.app.index, time: performance.now() };
+    this.due = this.app.index;
     this.timer = setTimeout(() => this.goOn(), 1000 / this.speed);
   }
 
   /** Shows the frame that is due: after one that took long, some are left out, so that time goes on as it is chosen. */
   goOn() {
-    const due = Math.max(1, Math.floor(((performance.now() - this.begin.time) * this.speed) / 1000));
-    this.go((this.begin.index + due) % this.count);
-    const next = this.begin.time + ((due + 1) * 1000) / this.speed;
+    const steps = Math.max(1, Math.floor(((performance.now() - this.begin.time) * this.speed) / 1000));
+    this.due = (this.begin.index + steps) % this.count;
+    this.go(this.due);
+    const next = this.begin.time + ((steps + 1) * 1000) / this.speed;
     this.timer = setTimeout(() => this.goOn(), Math.max(0, next - performance.now()));
   }
 

@@ -3,9 +3,10 @@
 // browsers are in the files that are imported here.
 
 import assert from "node:assert/strict";
-import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { before } from "node:test";
+import { FirefoxPage } from "./firefox-page.mjs";
+import { drawn } from "./pictures.mjs";
 import { allpairs, clothFrames, detect, folder, inBoth, pages, root, startBrowser, write } from "./program.mjs";
 import "./explore.test.mjs";
 import "./layout.test.mjs";
@@ -26,9 +27,7 @@ async function view(name, ...inputs) {
 }
 
 async function picture(name) {
-  const path = join(pages, `${name}.png`);
-  await browser.screenshot(path);
-  return readFileSync(path);
+  await browser.screenshot(join(pages, `${name}.png`));
 }
 
 inBoth("Firefox shows the numbers of detect, draws, and obeys keys", async () => {
@@ -37,10 +36,14 @@ inBoth("Firefox shows the numbers of detect, draws, and obeys keys", async () =>
   await view("firefox-demo", demo);
   assert.equal(await count("#fact-models"), result.models.length);
   assert.equal(await count("#fact-pairs"), result.pairs.length);
-  const withBoxes = await picture("firefox-demo");
+  await picture("firefox-demo");
+  const page = new FirefoxPage(browser);
+  const withBoxes = await drawn(page);
+  assert.equal(await drawn(page), withBoxes);
   await browser.press("b");
   await browser.until("document.querySelector('#show-boxes[aria-pressed=false]') !== null");
-  assert.ok(!withBoxes.equals(await picture("firefox-shapes")));
+  assert.notEqual(await drawn(page), withBoxes);
+  await picture("firefox-shapes");
   await browser.press("j");
   await browser.until("document.querySelectorAll('#pairs-list [aria-selected=true]').length === 1");
   assert.equal(await text("#details .link.first"), result.models[result.pairs[0][0]].name);
