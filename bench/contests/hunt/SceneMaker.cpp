@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "Random.h"
 #include "allpairs/Error.h"
@@ -152,7 +153,16 @@ SceneMaker::SceneMaker(const SceneFamily& family) : m_family(family) {
   const std::size_t dimension = dimensionOf(family.support);
   m_sides = {latticeSide(family.first, dimension), latticeSide(family.second, dimension)};
   m_scale = family.spacing == Spacing::Lattice ? latticeScale() : scaleForPairs();
-  while (m_family.boxes() > kFewBoxes && hasTooManyPairs()) m_scale *= 0.75;
+  if (m_family.boxes() > kFewBoxes && hasTooManyPairs()) shrink();
+}
+
+/// Until the pairs of a scene are few enough. Where they would be too many even of points, since far from the origin too
+/// many of these are one point, the scene lies at the origin instead.
+void SceneMaker::shrink() {
+  const double scale = std::exchange(m_scale, 0.0);
+  if (hasTooManyPairs()) m_family.offset = 0.0;
+  constexpr double kLeast = 0x1p-60;  // Boxes are points then, in float64 too.
+  for (m_scale = scale; m_scale > kLeast && hasTooManyPairs();) m_scale *= 0.75;
 }
 
 SceneMaker::Placed SceneMaker::place(const Draw& draw) const {

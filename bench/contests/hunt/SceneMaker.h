@@ -26,6 +26,7 @@ class SceneMaker {
  public:
   explicit SceneMaker(const SceneFamily& family);
 
+  /// The family that was given; it has lost its offset where too many boxes would lie in one point with it.
   [[nodiscard]] const SceneFamily& family() const noexcept { return m_family; }
 
   /// The scene of a number; scenes of different numbers have no box in common.
@@ -58,6 +59,7 @@ class SceneMaker {
   [[nodiscard]] double latticeScale() const;
   [[nodiscard]] double scaleForPairs() const;
   [[nodiscard]] bool hasTooManyPairs() const;
+  void shrink();
   [[nodiscard]] Sample drawSample() const;
   template <class T>
   [[nodiscard]] std::vector<T> rowsOf(const std::vector<Placed>& boxes, double scale, double offset) const;
