@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "../Choices.h"
+#include "CQueries.h"
 #include "CSearch.h"
 #include "CWorld.h"
 
@@ -24,6 +25,8 @@ constexpr std::size_t kMostCalls = 150;
 struct SetHandle {
   std::vector<float> float32;
   std::vector<double> float64, margins;
+  std::vector<Box> boxes;  ///< As the set has them.
+  bool mayHaveMargins = false;
   allpairs_set* set = nullptr;
 };
 
@@ -41,7 +44,7 @@ class Calls {
   ~Calls() {
     for (SetHandle& each : m_sets) allpairs_set_destroy(each.set);
     for (allpairs_search* each : m_searches) allpairs_search_destroy(each);
-    for (allpairs_world* each : m_worlds) allpairs_world_destroy(each);
+    for (const CWorld& each : m_worlds) allpairs_world_destroy(each.world);
     for (allpairs_elements* each : m_elements) allpairs_elements_destroy(each);
   }
   Calls(const Calls&) = delete;
@@ -79,7 +82,8 @@ class Calls {
 
   SetHandle& anySet() { return m_sets[m_choices.below(kHandles)]; }
   allpairs_search* anySearch() { return m_searches[m_choices.below(kHandles)]; }
-  allpairs_world* anyWorld() { return m_worlds[m_choices.below(kHandles)]; }
+  CWorld& anyHandle() { return m_worlds[m_choices.below(kHandles)]; }
+  allpairs_world* anyWorld() { return anyHandle().world; }
 
   void createSet() {
     SetHandle& handle = anySet();
@@ -93,6 +97,7 @@ class Calls {
       handle.float64.insert(handle.float64.end(), box.max.begin(), box.max.end());
     }
     for (const double value : handle.float64) handle.float32.push_back(static_cast<float>(value));
+    handle.boxes = boxes;
     const allpairs_status status = checked(createFrom(handle, boxes.size()));
     require(status == (hasNan ? ALLPAIRS_INVALID_BOX : ALLPAIRS_OK), "a set is refused for a NaN only");
     require((handle.set == nullptr) == hasNan, "a set is there if its creation succeeded");
@@ -104,7 +109,10 @@ class Calls {
     const auto last = static_cast<std::ptrdiff_t>(6 * (count - 1));
     const float* f = handle.float32.data();
     const double* d = handle.float64.data();
-    switch (m_choices.below(4)) {
+    const std::size_t way = m_choices.below(4);
+    for (Box& box : handle.boxes) box = way % 2 == 0 ? asFloat32(box) : box;
+    if (way == 2) std::reverse(handle.boxes.begin(), handle.boxes.end());
+    switch (way) {
       case 0:
         return allpairs_set_create_f32(f, count, &handle.set);
       case 1:
@@ -119,6 +127,7 @@ class Calls {
   void setMargins() {
     SetHandle& handle = anySet();
     const double margin = m_choices.anyNumber();
+    handle.mayHaveMargins = true;
     const bool isFine =
         handle.set != nullptr && !std::isnan(margin) && margin != -std::numeric_limits<double>::infinity();
     require((checked(allpairs_set_margin(handle.set, margin)) == ALLPAIRS_OK) == isFine, "a margin is a number");
@@ -199,9 +208,9 @@ class Calls {
   }
 
   void createWorld() {
-    allpairs_world*& world = m_worlds[m_choices.below(kHandles)];
-    allpairs_world_destroy(world);
-    world = nullptr;
+    CWorld& handle = anyHandle();
+    allpairs_world_destroy(handle.world);
+    handle = {};
     allpairs_world_options given{};
     given.struct_size = m_choices.byte() == 255 ? m_choices.below(100) : sizeof(given);
     given.distance = m_choices.anyNumber();
@@ -209,8 +218,13 @@ class Calls {
     if (m_choices.flag()) given.accept = acceptSome;
     given.accept_context = &m_salt;
     if (m_choices.byte() == 255) given.threads = 2;
-    const allpairs_status status = checked(allpairs_world_create(maybeNull(&given), &world));
-    require((status == ALLPAIRS_OK) == (world != nullptr), "a world is there if its creation succeeded");
+    const allpairs_world_options* const options = maybeNull(&given);
+    const allpairs_status status = checked(allpairs_world_create(options, &handle.world));
+    require((status == ALLPAIRS_OK) == (handle.world != nullptr), "a world is there if its creation succeeded");
+    if (options == nullptr) return;
+    handle.distance = given.distance;
+    handle.order = given.order;
+    handle.accepts = given.accept != nullptr;
   }
 
   allpairs_properties properties() {
@@ -268,7 +282,11 @@ class Calls {
     checked(allpairs_world_set_worlds(world, {list.data(), list.size()}, maybeNull(numbers.data())));
   }
 
-  void restrictQueries() { checked(allpairs_world_restrict_queries(anyWorld(), anyNumber())); }
+  void restrictQueries() {
+    CWorld& handle = anyHandle();
+    const std::uint32_t number = anyNumber();
+    if (checked(allpairs_world_restrict_queries(handle.world, number)) == ALLPAIRS_OK) handle.queried = number;
+  }
 
   void shrink() {
     checked(allpairs_search_shrink(anySearch()));
@@ -371,56 +389,38 @@ class Calls {
   }
 
   void query() {
-    allpairs_world* world = anyWorld();
-    const allpairs_query_filter wanted = filter();
+    CQueries queries{anyHandle(), filter()};
     const allpairs_ray way = ray();
     const allpairs_sweep moving = sweep();
-    allpairs_ids ids{};
-    allpairs_hit first{};
-    allpairs_hits hits{};
-    allpairs_neighbors neighbors{};
     const allpairs_nearest nearest{{way.origin[0], way.origin[1], way.origin[2]}, m_choices.below(600)};
-    checked(allpairs_world_find_overlapping(world, moving.box, maybeNull(&wanted), &ids));
-    require(ids.count <= allpairs_world_size(world), "no box is found twice");
-    if (checked(allpairs_world_find_first(world, &way, &wanted, &first)) == ALLPAIRS_OK) {
-      require(checked(allpairs_world_find_all(world, &way, &wanted, &hits)) == ALLPAIRS_OK, "a ray's hits are found");
-      compareFirst(first, hits);
-    }
-    if (checked(allpairs_world_sweep_first(world, &moving, &wanted, &first)) == ALLPAIRS_OK) {
-      require(checked(allpairs_world_sweep_all(world, &moving, &wanted, &hits)) == ALLPAIRS_OK, "all hits are found");
-      compareFirst(first, hits);
-    }
-    checked(allpairs_world_find_nearest(world, &nearest, &wanted, &neighbors));
-    require(neighbors.count <= nearest.count, "no more neighbors are given than were asked for");
+    queries.compareOverlapping(moving.box, m_choices.byte() == 255);
+    queries.compare(way);
+    queries.compare(moving);
+    queries.compareNearest(nearest);
   }
 
   void queryMany() {
-    allpairs_world* world = anyWorld();
-    const allpairs_query_filter wanted = filter();
+    CQueries queries{anyHandle(), filter()};
     std::vector<allpairs_ray> rays(m_choices.below(4));
     for (allpairs_ray& each : rays) each = ray();
     std::vector<allpairs_sweep> sweeps(m_choices.below(4));
     for (allpairs_sweep& each : sweeps) each = sweep();
-    std::vector<allpairs_hit> hits(std::max(rays.size(), sweeps.size()));
-    allpairs_id_lists ids{};
-    allpairs_hit_lists lists{};
-    allpairs_neighbor_lists neighbors{};
-    checked(allpairs_world_find_overlapping_many(world, anySet().set, &wanted, &ids));
-    checked(allpairs_world_find_first_many(world, {rays.data(), rays.size()}, &wanted, hits.data()));
-    checked(allpairs_world_find_all_many(world, {rays.data(), rays.size()}, &wanted, &lists));
-    checked(allpairs_world_sweep_first_many(world, {sweeps.data(), sweeps.size()}, &wanted, hits.data()));
-    checked(allpairs_world_sweep_all_many(world, {sweeps.data(), sweeps.size()}, &wanted, &lists));
+    const SetHandle& overlapped = anySet();
+    queries.compareOverlapping(overlapped.set, overlapped.boxes, overlapped.mayHaveMargins);
+    queries.compare(rays);
+    queries.compare(sweeps);
     std::vector<double> points;
     for (const allpairs_ray& each : rays) points.insert(points.end(), each.origin, each.origin + 3);
-    const allpairs_nearest_many nearest{points.data(), rays.size(), m_choices.below(20)};
-    checked(allpairs_world_find_nearest_many(world, &nearest, &wanted, &neighbors));
-    const allpairs_nearest_to_boxes toBoxes{anySet().set, nearest.count};
-    checked(allpairs_world_find_nearest_to_boxes(world, &toBoxes, &wanted, &neighbors));
+    const std::size_t count = m_choices.below(20);
+    queries.compareNearest(points, count);
+    const SetHandle& close = anySet();
+    queries.compareNearest({close.set, count}, close.boxes, close.mayHaveMargins);
   }
 
   void betweenWorlds() {
-    allpairs_pairs pairs{};
-    checked(allpairs_world_find_between(anyWorld(), anyWorld(), maybeNull(&pairs)));
+    const CWorld& first = anyHandle();
+    const CWorld& second = anyHandle();
+    compareBetween(first, second, m_choices.byte() == 255, m_salt);
   }
 
   void createElements() {
@@ -485,7 +485,7 @@ class Calls {
   std::array<double, 6> m_region{};
   std::array<SetHandle, kHandles> m_sets;
   std::array<allpairs_search*, kHandles> m_searches{};
-  std::array<allpairs_world*, kHandles> m_worlds{};
+  std::array<CWorld, kHandles> m_worlds{};
   std::array<allpairs_elements*, kHandles> m_elements{};
 };
 

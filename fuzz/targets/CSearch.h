@@ -50,15 +50,21 @@ struct CSearch {
   const allpairs_set* set = nullptr;
   const allpairs_set* other = nullptr;
 
-  /// The pairs; none if they are not found.
-  [[nodiscard]] std::vector<allpairs_pair> pairs() const {
+  /// What finding says, and the pairs; none if they are not found.
+  struct Found {
+    allpairs_status status = ALLPAIRS_OK;
+    std::vector<allpairs_pair> pairs;
+  };
+
+  [[nodiscard]] Found find() const {
     allpairs_pairs pairs{};
     const allpairs_status status = checked(other == nullptr ? allpairs_find(search, set, &pairs)
                                                             : allpairs_find_between(search, set, other, &pairs));
-    return status == ALLPAIRS_OK ? std::vector(pairs.data, pairs.data + pairs.count) : std::vector<allpairs_pair>();
+    return {status,
+            status == ALLPAIRS_OK ? std::vector(pairs.data, pairs.data + pairs.count) : std::vector<allpairs_pair>()};
   }
 
-  /// Finding, counting and streaming agree. Finding may be given nothing to write to.
+  /// Finding, counting and streaming agree, also in whether they succeed. Finding may be given nothing to write to.
   void compareAll(std::size_t batch, bool givesNull) const {
     allpairs_pairs found{};
     std::uint64_t count = 0;
@@ -76,6 +82,8 @@ struct CSearch {
         checked(other == nullptr ? allpairs_find(search, set, into) : allpairs_find_between(search, set, other, into));
     if (search == nullptr || set == nullptr || givesNull)
       require(status == ALLPAIRS_INVALID_ARGUMENT, "no handle is an invalid argument");
+    else
+      require(status == counted, "finding and counting succeed or fail alike");
     if (status != ALLPAIRS_OK) return;
     require(std::equal(found.data, found.data + found.count, seen.pairs.begin(), seen.pairs.end(), isPair),
             "the pairs that are found are those that are streamed");
@@ -98,13 +106,13 @@ struct CSearch {
 
   /// In memory of the caller is what is found; one place less is too little.
   void compareInto(bool isTooSmall) const {
-    const std::vector<allpairs_pair> expected = pairs();
+    const auto [found, expected] = find();
     isTooSmall = isTooSmall && !expected.empty();
     std::vector<allpairs_pair> memory(expected.size());
     allpairs_pair_memory into{memory.data(), memory.size() - (isTooSmall ? 1 : 0), 0};
     const allpairs_status status = checked(other == nullptr ? allpairs_find_into(search, set, &into)
                                                             : allpairs_find_between_into(search, set, other, &into));
-    if (isTooSmall) require(status != ALLPAIRS_OK, "what does not fit is not given");
+    require(isTooSmall ? status != ALLPAIRS_OK : status == found, "what fits is given as if there were room for all");
     if (status != ALLPAIRS_OK) return;
     require(into.count == memory.size() && std::equal(memory.begin(), memory.end(), expected.begin(), isPair),
             "the caller's memory has the pairs that are found");
@@ -112,15 +120,16 @@ struct CSearch {
 
   /// Rows of neighbors are the pairs by their boxes, in memory of the caller too.
   void compareRows(allpairs_rows_kind kind) const {
-    const std::vector<allpairs_pair> found = pairs();
+    const Found found = find();
     allpairs_rows rows{};
     const allpairs_status status =
         checked(other == nullptr ? allpairs_find_neighbors(search, set, kind, &rows)
                                  : allpairs_find_neighbors_between(search, set, other, &rows));
+    require(status == found.status, "rows are found where pairs are");
     if (status != ALLPAIRS_OK) return;
     require(rows.count == allpairs_set_size(set), "each box has a row");
     std::vector<std::vector<std::uint32_t>> partners(rows.count);
-    for (const allpairs_pair& pair : found) {
+    for (const allpairs_pair& pair : found.pairs) {
       partners[pair.first].push_back(pair.second);
       if (other == nullptr && kind == ALLPAIRS_FULL_ROWS) partners[pair.second].push_back(pair.first);
     }
@@ -165,7 +174,7 @@ inline void compareWorlds(allpairs_search* search, const allpairs_worlds& worlds
   std::vector<std::uint64_t> begin(worlds.count + 1);
   if (checked(allpairs_count_in_worlds(search, &worlds, begin.data())) != ALLPAIRS_OK) return;
   allpairs_world_pairs found{};
-  if (checked(allpairs_find_in_worlds(search, &worlds, &found)) != ALLPAIRS_OK) return;
+  require(checked(allpairs_find_in_worlds(search, &worlds, &found)) == ALLPAIRS_OK, "what was counted can be found");
   require(std::equal(begin.begin(), begin.end(), found.begin) && found.pairs.count == begin.back(),
           "as many pairs of each world are found as are counted");
   const std::vector<allpairs_pair> expected(found.pairs.data, found.pairs.data + found.pairs.count);

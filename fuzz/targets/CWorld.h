@@ -42,11 +42,6 @@ inline void addEach(allpairs_world* world, const allpairs_set* set, const allpai
   requireAdded(world, before, ids, checked(allpairs_world_add_each(world, set, each.data(), ids.data())));
 }
 
-inline void compareFirst(const allpairs_hit& first, const allpairs_hits& all) {
-  require((first.id == ALLPAIRS_NO_BOX) == (all.count == 0), "there is a first hit if there is any");
-  require(all.count == 0 || (all.data->id == first.id && all.data->t == first.t), "the first hit is the first of all");
-}
-
 /// The statistics of the last step, as far as the caller knows such a structure.
 inline allpairs_step_statistics statisticsOf(const allpairs_world* world, std::size_t known) {
   allpairs_step_statistics statistics{};
