@@ -36,7 +36,13 @@ Partition cutAnywhere(Choices& choices) {
 struct Part {
   Side side;
   std::vector<std::uint64_t> ids;
+
+  [[nodiscard]] FilterBits filter() const { return {side.categories, side.masks, side.groups}; }
 };
+
+constexpr std::uint64_t kOffset = std::uint64_t{1} << 40;  // ids need 64 bits
+
+std::uint64_t idOf(std::size_t box) { return 3 * std::uint64_t{box} + kOffset; }
 
 Part partOf(const Side& side, const Partition& cells, std::size_t cell, double distance, double maxMargin) {
   Part part;
@@ -49,11 +55,75 @@ Part partOf(const Side& side, const Partition& cells, std::size_t cell, double d
     if (!isHere) continue;
     part.side.boxes.push_back(side.boxes[i]);
     part.side.margins.push_back(side.marginOf(i));
-    part.ids.push_back(3 * std::uint64_t{i} + (std::uint64_t{1} << 40));
+    if (!side.categories.empty()) part.side.categories.push_back(side.categories[i]);
+    if (!side.masks.empty()) part.side.masks.push_back(side.masks[i]);
+    if (!side.groups.empty()) part.side.groups.push_back(side.groups[i]);
+    part.ids.push_back(idOf(i));
   }
   part.side.set = part.side.boxes;
   part.side.set.setMargins(part.side.margins);
   return part;
+}
+
+/// What is asked of all cells.
+struct CellsQuestion {
+  const Side& first;
+  const Side& second;  ///< The first again, of one set.
+  OverlapOptions options;
+
+  [[nodiscard]] bool isOne() const { return &first == &second; }
+};
+
+/// The pairs of a cell, by id; streaming, finding and counting agree.
+std::vector<IdPair> pairsOfCell(const CellsQuestion& question, const Partition& cells, std::size_t number) {
+  const double distance = question.options.distance;
+  const Part a = partOf(question.first, cells, number, distance, partition::greatestMargin(question.second.set));
+  const Part b = partOf(question.second, cells, number, distance, partition::greatestMargin(question.first.set));
+  const partition::Cell cell = cells.cell(number);
+  OverlapOptions options = question.options;
+  options.filter.first = a.filter();
+  if (!question.isOne()) options.filter.second = b.filter();
+  partition::CellSearch search(options);
+  std::vector<Pair> streamed;
+  const auto visit = [&streamed](Span<const Pair> pairs) {
+    streamed.insert(streamed.end(), pairs.begin(), pairs.end());
+  };
+  question.isOne() ? search.stream(a.side.set, cell, visit) : search.stream(a.side.set, b.side.set, cell, visit);
+  std::sort(streamed.begin(), streamed.end());
+  const auto found = question.isOne() ? search.find(a.side.set, cell) : search.find(a.side.set, b.side.set, cell);
+  require(std::ranges::equal(streamed, found), "streaming a cell gives the pairs that are found");
+  const std::uint64_t count = question.isOne() ? partition::countOverlapsInCell(a.side.set, cell, options)
+                                               : partition::countOverlapsInCell(a.side.set, b.side.set, cell, options);
+  require(count == found.size(), "as many pairs of a cell are counted as are found");
+  std::vector<IdPair> pairs = question.isOne() ? overlapsInCell(a.side.set, a.ids, cell, options)
+                                               : overlapsInCell(a.side.set, a.ids, b.side.set, b.ids, cell, options);
+  require(std::ranges::equal(pairs, found, {}, {},
+                             [&](Pair p) {
+                               return IdPair{a.ids[p.first], (question.isOne() ? a : b).ids[p.second]};
+                             }),
+          "the pairs of a cell are in order, with and without ids");
+  return pairs;
+}
+
+/// All boxes at once and each alone go to the same cells, of which each is then asked for as many.
+void compareCells(const Partition& cells, const Side& side, double distance, double maxMargin) {
+  std::vector<std::uint64_t> expected(cells.size());
+  std::vector<std::uint32_t> alone;
+  std::size_t next = 0;
+  const auto reachOf = [&](std::size_t i) {
+    return partition::reachOf(side.boxes[i], side.marginOf(i), distance, maxMargin);
+  };
+  cells.visitCells(side.boxes.size(), reachOf, [&](std::size_t i, Span<const std::uint32_t> touched) {
+    require(i == next++, "boxes are visited in order");
+    cells.cellsOf(reachOf(i), alone);
+    require(std::ranges::is_permutation(touched, alone), "a box is visited with the cells that it touches");
+    for (const std::uint32_t cell : touched) ++expected[cell];
+  });
+  require(next == side.boxes.size(), "all boxes are visited");
+  const double most = std::max(maxMargin, partition::greatestMargin(side.set));
+  if (most == maxMargin) {
+    require(partition::boxesPerCell(cells, side.set, distance, maxMargin) == expected, "each cell has as many boxes");
+  }
 }
 
 void runCells(Bytes bytes) {
@@ -62,26 +132,24 @@ void runCells(Bytes bytes) {
   readSide(choices, first);
   const bool isOne = choices.flag();
   if (!isOne) readSide(choices, second);
-  const OverlapOptions options{.distance = choices.distance()};
   const Side& other = isOne ? first : second;
-  for (Side* side : {&first, &second}) side->categories = side->masks = side->groups = {};
-  const Partition cells =
-      choices.flag() ? cutAnywhere(choices) : Partition(first.set, 1 + choices.below(20), options.distance);
+  CellsQuestion question{first, other, {.distance = choices.distance()}};
+  Partition cells =
+      choices.flag() ? cutAnywhere(choices) : Partition(first.set, 1 + choices.below(20), question.options.distance);
+  for (std::size_t again = choices.below(4); again > 0; --again) {
+    static_cast<void>(
+        cells.cutAgain(choices.below(cells.size()), first.set, 2 + choices.below(4), question.options.distance));
+  }
+  compareCells(cells, first, question.options.distance, partition::greatestMargin(other.set));
   std::vector<IdPair> found;
   for (std::size_t cell = 0; cell < cells.size(); ++cell) {
-    const Part a = partOf(first, cells, cell, options.distance, partition::greatestMargin(other.set));
-    const Part b = isOne ? Part() : partOf(second, cells, cell, options.distance, partition::greatestMargin(first.set));
-    const std::vector<IdPair> pairs =
-        isOne ? overlapsInCell(a.side.set, a.ids, cells.cell(cell), options)
-              : overlapsInCell(a.side.set, a.ids, b.side.set, b.ids, cells.cell(cell), options);
-    require(std::is_sorted(pairs.begin(), pairs.end()), "the pairs of a cell are in order");
+    const std::vector<IdPair> pairs = pairsOfCell(question, cells, cell);
     found.insert(found.end(), pairs.begin(), pairs.end());
   }
   std::sort(found.begin(), found.end());
   std::vector<IdPair> expected;
-  for (const Pair pair : Oracle{options, first, other}.pairs()) {
-    constexpr std::uint64_t kOffset = std::uint64_t{1} << 40;
-    expected.push_back({3 * std::uint64_t{pair.first} + kOffset, 3 * std::uint64_t{pair.second} + kOffset});
+  for (const Pair pair : Oracle{question.options, first, other}.pairs()) {
+    expected.push_back({idOf(pair.first), idOf(pair.second)});
   }
   require(found == expected, "the cells have each pair of the double loop once");
 }

@@ -93,6 +93,30 @@ void endAndGoOn(Choices& choices, test::JoinCase& with, join::JoinOptions option
   }
 }
 
+/// Two sets, or one, near a region or anywhere.
+void joinTwo(Choices& choices) {
+  constexpr std::size_t kMost = 60;
+  test::JoinCase with;
+  Side first, second;
+  first.boxes = readFileOf(choices, with);
+  const bool areTwo = choices.flag();
+  if (areTwo) {
+    second.boxes = choices.boxes(kMost);
+    with.addSecond(second.boxes, {.descr = "<f8", .fortran = choices.flag()});
+  }
+  OverlapOptions asked{.distance = choices.distance()};
+  const Box region = choices.box();
+  if (choices.flag() && !isNothing(region)) asked.region = region;
+  with.distance = asked.distance;
+  with.region = asked.region;
+  const std::string expected = test::bytesOfPairs(Oracle{asked, first, areTwo ? second : first}.pairs());
+  const std::size_t pairs = test::pairsOfNpy(expected).size();
+  const join::Budget budget = readBudget(choices, first.boxes.size() + second.boxes.size(), pairs);
+  require(with.run(with.options(), budget) == expected,
+          "a join of two sets, near a region, gives the double loop's pairs");
+  require(with.count(with.options(), budget) == pairs, "and counts as many");
+}
+
 void runJoins(Bytes bytes) {
   Choices choices(bytes);
   test::JoinCase with;
@@ -109,6 +133,7 @@ void runJoins(Bytes bytes) {
   require(with.run(options, budget) == expected, "a join gives the pairs of the double loop");
   require(with.count(options, budget) == pairs, "and counts as many");
   endAndGoOn(choices, with, options, budget, expected);
+  if (!choices.done()) joinTwo(choices);
 }
 
 }  // namespace

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "../BackwardExecutor.h"
-#include "../BoxesInMemory.h"
 #include "../Choices.h"
+#include "WorldQueries.h"
 #include "allpairs/Error.h"
 #include "allpairs/Overlaps.h"
 #include "engine/WorldOracle.h"
@@ -20,24 +20,13 @@
 namespace allpairs::fuzz {
 namespace {
 
-constexpr std::size_t kMostInWorld = 250;     // The double loop is quadratic.
-constexpr std::size_t kMostOperations = 120;  // Keeps an execution within milliseconds.
-constexpr std::array<std::uint32_t, 4> kWorlds{0, 1, kEveryWorld - 1, kEveryWorld};
+constexpr std::size_t kMostOperations = 120;  // With 250 boxes, some tenths of a second under sanitizers.
 
 bool hasNanBound(const Box& box) {
   for (std::size_t k = 0; k < 3; ++k) {
     if (std::isnan(box.min[k]) || std::isnan(box.max[k])) return true;
   }
   return false;
-}
-
-/// Calls the function with a view of the boxes, which become float32 if the input says so.
-template <class Function>
-void withView(Choices& choices, std::vector<Box>& boxes, const Function& function) {
-  const std::size_t layout = choices.below(2 * BoxesInMemory<float>::kLayouts);
-  if (layout % 2 == 0) return function(BoxesInMemory<double>(boxes, layout / 2).view());
-  for (Box& box : boxes) box = asFloat32(box);
-  function(BoxesInMemory<float>(boxes, layout / 2).view());
 }
 
 /// The smallest box that holds both; one that is empty adds nothing.
@@ -107,11 +96,11 @@ class Life {
       case 10:
         return refuse();
       case 11:
-        return compareOverlapping();
+        return queries().compareOverlapping();
       case 12:
-        return compareSweeps();
+        return queries().compareSweeps();
       case 13:
-        return compareNearest();
+        return queries().compareNearest();
       default:
         return compareStep();
     }
@@ -288,44 +277,32 @@ class Life {
   }
 
   void compareStep() {
-    m_oracle.step();
-    // The oracle has no accept: its pairs are those that pass, and what began and ended follows.
-    if (m_world.options().accept) applyAccept();
-    const StepResult result = m_world.step();
-    require(std::ranges::equal(result.pairs, m_oracle.pairs), "a step gives the pairs of the double loop");
-    require(std::ranges::equal(result.began, m_oracle.began), "a step gives the pairs that began");
-    require(std::ranges::equal(result.persisted, m_oracle.persisted), "a step gives the pairs that persisted");
-    require(std::ranges::equal(result.ended, m_oracle.ended), "a step gives the pairs that ended");
-    if (!m_world.options().accept) compareEachWorld();
+    std::vector<Pair> now = m_oracle.pairsNow();  // The oracle has no accept.
+    if (m_world.options().accept) std::erase_if(now, [this](Pair p) { return !accepts(p.first, p.second); });
+    m_oracle.become(now);
+    requireLists(m_world.step(), m_oracle, "a step gives the pairs of the double loop, and what changed");
+    compareEachWorld(now);
     compareBoxes();
   }
 
-  void compareEachWorld() {
-    for (const std::uint32_t number : kWorlds) {
-      test::WorldOracle& oracle = m_each[number];
-      oracle.only = number;
-      oracle.distance = m_oracle.distance;
-      oracle.order = m_oracle.order;
-      oracle.boxes = m_oracle.boxes;
-      oracle.step();
-      const StepResult result = m_world.result(number);
-      require(std::ranges::equal(result.pairs, oracle.pairs), "a world's list has its pairs");
-      require(std::ranges::equal(result.began, oracle.began), "a world's list has the pairs that began in it");
-      require(std::ranges::equal(result.persisted, oracle.persisted),
-              "a world's list has the pairs that persisted in it");
-      require(std::ranges::equal(result.ended, oracle.ended), "a world's list has the pairs that ended in it");
-    }
+  static void requireLists(const StepResult& result, const test::WorldOracle& oracle, std::string_view property) {
+    require(std::ranges::equal(result.pairs, oracle.pairs) && std::ranges::equal(result.began, oracle.began) &&
+                std::ranges::equal(result.persisted, oracle.persisted) &&
+                std::ranges::equal(result.ended, oracle.ended),
+            property);
   }
 
-  void applyAccept() {
-    std::erase_if(m_oracle.pairs, [this](Pair p) { return !accepts(p.first, p.second); });
-    const std::vector<Pair>& now = m_oracle.pairs;
-    m_oracle.began.clear(), m_oracle.persisted.clear(), m_oracle.ended.clear();
-    const auto before = [this](Pair a, Pair b) { return m_oracle.isBefore(a, b); };
-    std::ranges::set_difference(now, m_lastPairs, std::back_inserter(m_oracle.began), before);
-    std::ranges::set_intersection(now, m_lastPairs, std::back_inserter(m_oracle.persisted), before);
-    std::ranges::set_difference(m_lastPairs, now, std::back_inserter(m_oracle.ended), before);
-    m_lastPairs = now;
+  void compareEachWorld(const std::vector<Pair>& now) {
+    for (const std::uint32_t number : kWorlds) {
+      test::WorldOracle& oracle = m_each[number];
+      oracle.order = m_oracle.order;
+      std::vector<Pair> own;
+      for (const Pair pair : now) {
+        if (m_oracle.worldOf(pair) == number) own.push_back(pair);
+      }
+      oracle.become(own);
+      requireLists(m_world.result(number), oracle, "a world's lists have what is in it, and what changed there");
+    }
   }
 
   void compareBoxes() const {
@@ -341,71 +318,7 @@ class Life {
     }
   }
 
-  QueryFilter filter() {
-    QueryFilter result;
-    const std::uint8_t parts = m_choices.byte();
-    if (parts < 128) return result;
-    result.mask = parts % 8U;
-    result.category = 1U << parts / 8 % 3;
-    result.staticBoxes = (parts & 64U) != 0;
-    result.dynamicBoxes = (parts & 32U) != 0;
-    result.world = kWorlds[m_choices.below(kWorlds.size())];
-    return result;
-  }
-
-  void compareOverlapping() {
-    std::vector<Box> boxes = m_choices.boxes(20);
-    const QueryFilter wanted = filter();
-    withView(m_choices, boxes, [&](const BoxView& view) {
-      const ResultLists<BoxId> lists = m_world.findOverlapping(view, wanted);
-      require(lists.size() == boxes.size(), "findOverlapping gives a list for each box");
-      for (std::size_t i = 0; i < boxes.size(); ++i) {
-        require(std::ranges::equal(lists[i], m_oracle.overlapping(boxes[i], wanted)), "findOverlapping is exact");
-      }
-    });
-    require(std::ranges::equal(m_world.findOverlapping(boxes[0], wanted), m_oracle.overlapping(boxes[0], wanted)),
-            "findOverlapping of one box is exact");
-  }
-
-  std::array<double, 3> finitePoint() { return {m_choices.finite(), m_choices.finite(), m_choices.finite()}; }
-
-  void compareSweeps() {
-    const QueryFilter wanted = filter();
-    std::vector<BoxSweep> sweeps(1 + m_choices.below(4));
-    for (BoxSweep& sweep : sweeps) {
-      sweep.box = m_choices.box();
-      sweep.motion = finitePoint();
-      sweep.length = std::abs(m_choices.number());
-    }
-    std::vector<SweepHit> first(sweeps.size());
-    m_world.findFirst(sweeps, first, wanted);
-    const ResultLists<SweepHit> lists = m_world.findAll(sweeps, wanted);
-    for (std::size_t i = 0; i < sweeps.size(); ++i) {
-      const std::vector<SweepHit> expected = m_oracle.along(sweeps[i], wanted);
-      require(std::ranges::equal(lists[i], expected), "findAll of a sweep is exact");
-      require(first[i] == (expected.empty() ? SweepHit{} : expected.front()), "findFirst of a sweep is exact");
-    }
-    compareRay(wanted);
-  }
-
-  void compareRay(const QueryFilter& wanted) {
-    const Ray ray{finitePoint(), finitePoint(), std::abs(m_choices.number())};
-    const auto expected = m_oracle.along({{ray.origin, ray.origin}, ray.direction, ray.length}, wanted);
-    require(std::ranges::equal(m_world.findAll(ray, wanted), expected), "findAll of a ray is exact");
-    require(m_world.findFirst(ray, wanted) == (expected.empty() ? SweepHit{} : expected.front()),
-            "findFirst of a ray is exact");
-  }
-
-  void compareNearest() {
-    const QueryFilter wanted = filter();
-    const std::array<double, 3> point = finitePoint();
-    const std::size_t count = m_choices.below(kMostInWorld + 20);
-    require(std::ranges::equal(m_world.findNearest(point, count, wanted), m_oracle.nearest(point, count, wanted)),
-            "findNearest is exact");
-    const Box box = m_choices.box();
-    require(std::ranges::equal(m_world.findNearest(box, count, wanted), m_oracle.nearest(box, count, wanted)),
-            "findNearest to a box is exact");
-  }
+  [[nodiscard]] WorldQueries queries() { return {m_choices, m_world, m_oracle}; }
 
   /// A second world of a few boxes, and the pairs between the two.
   void compareBetween() {
@@ -443,7 +356,6 @@ class Life {
   World m_world;
   test::WorldOracle m_oracle;
   std::map<std::uint32_t, test::WorldOracle> m_each;  ///< By world number.
-  std::vector<Pair> m_lastPairs;
 };
 
 void runWorld(Bytes bytes) {

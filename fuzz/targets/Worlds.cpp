@@ -3,7 +3,10 @@
 #include "allpairs/Worlds.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
+#include <limits>
+#include <string_view>
 #include <vector>
 
 #include "../BackwardExecutor.h"
@@ -55,6 +58,72 @@ WorldPairs expectedOf(const Side& all, const std::vector<std::uint64_t>& begin, 
   return expected;
 }
 
+bool isAmong(const std::vector<Pair>& pairs, Pair pair) {
+  return std::any_of(pairs.begin(), pairs.end(), [pair](Pair other) {
+    return other == pair || (other.first == pair.second && other.second == pair.first);
+  });
+}
+
+std::uint32_t smallNumber(Choices& choices, std::size_t n) { return static_cast<std::uint32_t>(choices.below(n)); }
+
+/// Finding, counting and listing, by the object and by the functions.
+void requireInEachWorld(const Worlds& worlds, const OverlapOptions& options, const WorldPairs& expected) {
+  const auto requireSame = [&](Span<const Pair> found, Span<const std::uint64_t> begin, std::string_view property) {
+    require(std::ranges::equal(begin, expected.begin) && found.size() == expected.pairs.size(), property);
+    std::vector<Pair> pairs(found.begin(), found.end());
+    for (std::size_t world = 0; options.order == Order::Unordered && world < worlds.size(); ++world) {
+      std::sort(pairs.begin() + static_cast<std::ptrdiff_t>(begin[world]),
+                pairs.begin() + static_cast<std::ptrdiff_t>(begin[world + 1]));
+    }
+    require(pairs == expected.pairs, property);
+  };
+  WorldsSearch search(options);
+  const WorldPairsView found = search.find(worlds);
+  requireSame(found.pairs, found.begin, "each of worlds of equal size has the pairs of the double loop");
+  const Span<const std::uint64_t> counted = search.count(worlds);
+  const std::vector<std::uint64_t> begin(counted.begin(), counted.end());
+  require(begin == expected.begin, "count() says where the pairs of worlds of equal size begin");
+  std::vector<Pair> listed(expected.pairs.size());
+  search.list(worlds, begin, listed);
+  requireSame(listed, begin, "list() writes the pairs of each world");
+  const WorldPairs once = overlapsInWorlds(worlds, options);
+  requireSame(once.pairs, once.begin, "overlapsInWorlds() gives the pairs of each world");
+}
+
+/// Worlds of equal size: pairs ignored in each of them, filters of one world, and any order and strategy.
+void compareEqualWorlds(Choices& choices, const Side& given, OverlapOptions options) {
+  const std::size_t count = 1 + choices.below(12);
+  const std::size_t size = given.boxes.size() / count;
+  if (size == 0) return;
+  Side all = part(given, 0, size * count);
+  all.set = all.boxes;
+  all.set.setMargin(all.margin);
+  if (!all.margins.empty()) all.set.setMargins(all.margins);
+  Side one = part(given, 0, size);
+  const bool isOfOne = choices.flag();
+  const Side& filtered = isOfOne ? one : all;
+  options.filter.first = {filtered.categories, filtered.masks, filtered.groups};
+  options.filter.second = {};
+  options.order = std::array{Order::ByFirst, Order::BySecond, Order::Unordered}.at(choices.below(3));
+  options.strategy = static_cast<Strategy>(choices.below(3));
+  options.maxPairs = std::numeric_limits<std::uint64_t>::max();
+  std::vector<Pair> ignored(choices.below(8));
+  for (Pair& pair : ignored) pair = {smallNumber(choices, size), smallNumber(choices, size)};
+
+  WorldPairs expected{.pairs = {}, .begin = {0}};
+  for (std::size_t world = 0; world < count; ++world) {
+    Side own = part(all, world * size, (world + 1) * size);
+    if (isOfOne) own.categories = one.categories, own.masks = one.masks, own.groups = one.groups;
+    for (const Pair pair : Oracle{options, own, own}.pairs()) {
+      if (!isAmong(ignored, pair)) expected.pairs.push_back(pair);
+    }
+    expected.begin.push_back(expected.pairs.size());
+  }
+  Worlds worlds = Worlds::ofEqualSize(all.set, count);
+  worlds.setIgnoredPairs(ignored);
+  requireInEachWorld(worlds, options, expected);
+}
+
 void runWorlds(Bytes bytes) {
   Choices choices(bytes);
   Side all, shared;
@@ -85,6 +154,7 @@ void runWorlds(Bytes bytes) {
   } catch (const LimitExceeded&) {
     require(isTooMany, "no error without more pairs than maxPairs");
   }
+  compareEqualWorlds(choices, all, options);
 }
 
 }  // namespace

@@ -50,7 +50,14 @@ struct WorldOracle {
                                     : std::pair(a.first, a.second) < std::pair(b.first, b.second);
   }
 
-  void step() {
+  void step() { become(pairsNow()); }
+
+  /// The world that a pair is listed for.
+  [[nodiscard]] std::uint32_t worldOf(const Pair& pair) const {
+    return std::min(boxes.at(pair.first).properties.world, boxes.at(pair.second).properties.world);
+  }
+
+  [[nodiscard]] std::vector<Pair> pairsNow() const {
     std::vector<Pair> now;
     for (auto a = boxes.begin(); a != boxes.end(); ++a) {
       for (auto b = std::next(a); b != boxes.end(); ++b) {
@@ -61,8 +68,13 @@ struct WorldOracle {
         if (mayPair(a->second.properties, b->second.properties)) now.push_back({a->first, b->first});
       }
     }
+    std::sort(now.begin(), now.end(), [this](const Pair& a, const Pair& b) { return isBefore(a, b); });
+    return now;
+  }
+
+  /// A step that finds these pairs, in order.
+  void become(const std::vector<Pair>& now) {
     const auto before = [this](const Pair& a, const Pair& b) { return isBefore(a, b); };
-    std::sort(now.begin(), now.end(), before);
     // Two boxes that had the same id are two boxes: a world must not reuse an id before this step is over.
     began.clear(), persisted.clear(), ended.clear();
     std::set_difference(now.begin(), now.end(), pairs.begin(), pairs.end(), std::back_inserter(began), before);
