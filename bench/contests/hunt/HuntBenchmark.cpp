@@ -8,9 +8,11 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <optional>
+#include <set>
 #include <string>
 
 #include "Match.h"
@@ -18,6 +20,8 @@
 #include "Report.h"
 #include "RunMain.h"
 #include "SceneFamily.h"
+#include "SetPeer.h"
+#include "allpairs/Error.h"
 
 namespace {
 
@@ -28,10 +32,24 @@ struct Arguments {
   std::uint64_t seed = 1;
   std::optional<std::uint64_t> sceneSeed;
   std::size_t leastBoxes = 0;
-  std::size_t mostBoxes = 1000000;
+  std::size_t mostBoxes = bench::kMostBoxes;
   std::string output;
   bench::MatchOptions match;
 };
+
+template <class T>
+void addPeerNames(std::set<std::string>& names) {
+  for (const bool areTwo : {false, true}) {
+    for (const bench::SetPeer<T>& peer : bench::setPeers<T>(areTwo)) names.insert(peer.name);
+  }
+}
+
+std::set<std::string> peerNames() {
+  std::set<std::string> names{"none"};
+  addPeerNames<float>(names);
+  addPeerNames<double>(names);
+  return names;
+}
 
 void declare(CLI::App& app, Arguments& a) {
   app.add_option("--seconds", a.seconds, "For the whole hunt, or for the one scene")->capture_default_str();
@@ -39,7 +57,8 @@ void declare(CLI::App& app, Arguments& a) {
   app.add_option("--scene-seed", a.sceneSeed, "Only the scene of this seed, with the times of all contenders");
   app.add_option("--least-boxes", a.leastBoxes, "Leave out scenes of fewer boxes");
   app.add_option("--most-boxes", a.mostBoxes, "Leave out scenes of more boxes");
-  app.add_option("--peer", a.match.peers, "Only these contenders besides ours, by name (repeatable); 'none' for none");
+  app.add_option("--peer", a.match.peers, "Only these contenders besides ours, by name (repeatable); 'none' for none")
+      ->check(CLI::IsMember(peerNames()));
   app.add_option("-o,--output", a.output, "Where all times go, as CSV");
 }
 
@@ -60,6 +79,7 @@ class Progress {
 };
 
 int hunt(const Arguments& a) {
+  if (a.leastBoxes > std::min(a.mostBoxes, bench::kMostBoxes)) throw InvalidArgument("no scene has so many boxes");
   bench::Report report(a.output);
   const Progress progress;
   const auto begin = std::chrono::steady_clock::now();
@@ -73,6 +93,7 @@ int hunt(const Arguments& a) {
     elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   }
   progress.end();
+  if (report.scenes() == 0) throw InvalidArgument("no scene of so many boxes was drawn in that time");
   report.print();
   return report.mistakes() == 0 ? 0 : 1;
 }

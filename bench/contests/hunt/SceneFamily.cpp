@@ -14,7 +14,6 @@ namespace {
 
 using generate::Random;
 
-constexpr double kMostBoxes = 1e6;
 constexpr double kMostPairs = 1e7;  // In a scene.
 
 double logUniform(Random& random, double low, double high) {
@@ -29,7 +28,7 @@ Value oneOf(Random& random, const std::array<Value, kCount>& choices) {
 
 /// One set; or two of similar size, or one large and one small, in either order.
 void drawCounts(Random& random, SceneFamily& family) {
-  const double boxes = std::round(logUniform(random, 2.0, kMostBoxes));
+  const double boxes = std::round(logUniform(random, 2.0, static_cast<double>(kMostBoxes)));
   family.first = static_cast<std::size_t>(boxes);
   if (random.unit() < 0.6) return;
   const bool isLopsided = random.unit() < 0.6;

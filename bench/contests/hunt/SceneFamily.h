@@ -39,6 +39,9 @@ struct SceneFamily {
   [[nodiscard]] std::size_t boxes() const noexcept { return first + second; }
 };
 
+/// No scene has more boxes.
+inline constexpr std::size_t kMostBoxes = 1000000;
+
 /// The family that belongs to a seed.
 [[nodiscard]] SceneFamily familyOf(std::uint64_t seed);
 

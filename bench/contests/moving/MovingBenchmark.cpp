@@ -17,6 +17,7 @@
 #include "RunMain.h"
 #include "Samples.h"
 #include "Stopwatch.h"
+#include "allpairs/Error.h"
 #include "allpairs/Overlaps.h"
 #include "allpairs/scene/FileError.h"
 
@@ -150,16 +151,33 @@ int runAll(const Request& request) {
            "worst_cpu_ms,median_wall_ms,median_ratio,wrong_frames\n";
   }
   bool right = true;
+  bool isEmpty = true;
   for (const Motion& motion : motions()) {
     if (!request.scene.empty() && request.scene != motion.name) continue;
     std::vector<Entry> entries = entriesFor(motion, request);
     if (entries.empty()) continue;
+    isEmpty = false;
     run(entries, request.stretch);
     report(motion, request, entries, csv);
     if (csv.is_open() && !csv.flush()) throw FileError(request.output, "can't be written");
     for (const Entry& entry : entries) right = right && entry.wrongFrames == 0;
   }
+  if (isEmpty) throw InvalidArgument("there are no frames to measure");
   return right ? 0 : 1;
+}
+
+std::vector<std::string> sceneNames() {
+  std::vector<std::string> names;
+  for (const Motion& motion : motions()) names.push_back(motion.name);
+  return names;
+}
+
+std::vector<std::string> settingNames() {
+  std::vector<std::string> names;
+  for (const std::vector<MovingContender>& part : {ownContenders(), peerContenders()}) {
+    for (const MovingContender& contender : part) names.push_back(contender.setting);
+  }
+  return names;
 }
 
 }  // namespace
@@ -172,8 +190,9 @@ int main(int argc, char** argv) {
   app.add_option("--boxes", request.boxes, "How many boxes there are");
   app.add_option("--frames", request.frames, "How many frames ours are measured for");
   app.add_option("--peer-frames", request.peerFrames, "How many of them the peers are measured for");
-  app.add_option("--scene", request.scene, "One scene only: straight, brownian, one-percent, slow");
-  app.add_option("--setting", request.settings, "Only these settings, such as world (repeatable)");
+  app.add_option("--scene", request.scene, "One scene only")->check(CLI::IsMember(allpairs::bench::sceneNames()));
+  app.add_option("--setting", request.settings, "Only these settings (repeatable)")
+      ->check(CLI::IsMember(allpairs::bench::settingNames()));
   app.add_option("--turn", request.stretch, "Frames of a contender's turn: from the second on the caches are its own")
       ->check(CLI::PositiveNumber);
   app.add_option("-o,--output", request.output, "A file of CSV for the records");

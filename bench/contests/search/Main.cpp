@@ -9,6 +9,7 @@
 #include "Runner.h"
 #include "allpairs/Error.h"
 #include "allpairs/Overlaps.h"
+#include "allpairs/generate/BoxScenes.h"
 
 namespace {
 
@@ -25,13 +26,26 @@ struct Arguments {
   bench::RunOptions run;
 };
 
+std::vector<std::string> sceneNames() {
+  std::vector<std::string> names;
+  for (const generate::BoxScene& scene : generate::boxScenes()) names.emplace_back(scene.name);
+  return names;
+}
+
+std::vector<std::string> peerNames() {
+  std::vector<std::string> names{"none"};
+  for (const bench::Peer& peer : bench::packagedPeers()) names.push_back(peer.name);
+  return names;
+}
+
 void declare(CLI::App& app, Arguments& a) {
   app.add_flag("--quick", a.quick, "A few scenes of up to 10,000 boxes: under a minute");
   app.add_option("--part", a.parts, "Only these parts (repeatable)")
       ->check(CLI::IsMember({"contest", "threads", "kernel"}));
-  app.add_option("--scene", a.scenes, "Only these scenes (repeatable)");
+  app.add_option("--scene", a.scenes, "Only these scenes (repeatable)")->check(CLI::IsMember(sceneNames()));
   app.add_option("--most-boxes", a.mostBoxes, "Leave out scenes of more boxes than this");
-  app.add_option("--peer", a.run.peers, "Only these peers, by name (repeatable); 'none' for ours alone");
+  app.add_option("--peer", a.run.peers, "Only these peers, by name (repeatable); 'none' for ours alone")
+      ->check(CLI::IsMember(peerNames()));
   app.add_option("--threads", a.run.threads, "Numbers of threads for the scaling part")->delimiter(',');
   app.add_option("--instruction-set", a.run.instructionSet, "Run ours with this instruction set");
   app.add_option("--seconds", a.secondsEach, "Time for each contender on each scene");
@@ -53,6 +67,10 @@ void choosePlan(Arguments& a) {
   keepOnly(a.run.plan.cells, "contest", a);
   keepOnly(a.run.plan.threadCells, "threads", a);
   keepOnly(a.run.plan.kernelCells, "kernel", a);
+  const bench::Plan& plan = a.run.plan;
+  if (plan.cells.empty() && plan.threadCells.empty() && plan.kernelCells.empty()) {
+    throw InvalidArgument("no scene of these parts, names and numbers of boxes is measured");
+  }
 }
 
 /// 1, 2, 4, ... and as many as the machine has.
