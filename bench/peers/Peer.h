@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <limits>
 #include <memory>
@@ -26,6 +27,9 @@ class Search {
 
   /// All pairs of closed boxes that overlap, each once, in any order and orientation; boxes are rows of 6 floats.
   [[nodiscard]] virtual std::span<const Pair> find(std::span<const float> rows) = 0;
+
+  /// How many the last search has found, of one that gives no pairs.
+  [[nodiscard]] virtual std::uint64_t count() const noexcept { return 0; }
 };
 
 /// One way to set a peer up.

@@ -30,7 +30,8 @@ METHOD = """## How it is measured
   a processor learns the branches of a small set that it sees again. Above a million boxes there is one set.
 - **Fairness**: contenders are interleaved on the same boxes. Each peer is tried in several settings on each scene, and
   its best one counts; settings are tried at up to 100,000 boxes, and the best one is used above.
-- **Same answer**: each contender's complete list of pairs is compared with ours before its time counts.
+- **Same answer**: each contender's complete list of pairs is compared with ours before its time counts. Of those that
+  only count, the numbers are.
   The hash is FNV-1a, 64 bits, over the pairs in the order (first, second), each as two 32-bit little-endian numbers.
 - **Compilation**: everything with -O3 and without assertions; header-only peers (CGAL, Boost.Geometry) and
   the native loop also with -march=native. Allpairs selects its instruction set at run time; AVX3 is AVX-512.

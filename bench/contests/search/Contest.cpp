@@ -42,11 +42,15 @@ class Runs {
 
 std::string describe(const Pair& pair) { return std::to_string(pair.first) + " and " + std::to_string(pair.second); }
 
+std::string difference(std::uint64_t found, std::uint64_t expected) {
+  return found == expected ? "" : std::to_string(found) + " pairs instead of " + std::to_string(expected);
+}
+
 /// How `found` differs from `expected`, both in order.
 std::string difference(std::span<const Pair> found, std::span<const Pair> expected) {
   const auto [f, e] = std::mismatch(found.begin(), found.end(), expected.begin(), expected.end());
   if (f == found.end() && e == expected.end()) return {};
-  std::string text = std::to_string(found.size()) + " pairs instead of " + std::to_string(expected.size());
+  const std::string text = std::to_string(found.size()) + " pairs instead of " + std::to_string(expected.size());
   if (e == expected.end() || (f != found.end() && *f < *e)) return text + ", first wrong one " + describe(*f);
   return text + ", first missing one " + describe(*e);
 }
@@ -73,20 +77,37 @@ std::vector<measure::Summary> takeTurns(std::span<const Contender> contenders, c
   return summaries;
 }
 
-/// Runs each once and compares its pairs, whole, with those of the first.
-std::vector<Outcome> compareResults(std::span<const Contender> contenders, std::span<const float> rows) {
+/// What a contender says of one set.
+struct Answer {
+  std::vector<Pair> pairs;  ///< In order; none of one that only counts.
+  std::uint64_t count = 0;
+};
+
+Answer answerOf(const Contender& contender, std::span<const float> rows) {
+  const std::unique_ptr<Search> search = contender.make();
+  const std::span<const Pair> found = search->find(rows);
+  if (!contender.givesPairs) return {{}, search->count()};
+  Answer answer{measure::normalised(found), found.size()};
+  return answer;
+}
+
+/// Runs each once on every set and compares its pairs, whole, with those of the first.
+std::vector<Outcome> compareResults(std::span<const Contender> contenders, const BoxSets& sets) {
   std::vector<Outcome> outcomes(contenders.size());
-  std::vector<Pair> expected;
-  for (std::size_t k = 0; k < contenders.size(); ++k) {
-    if (!contenders[k].givesPairs) continue;
-    const std::unique_ptr<Search> search = contenders[k].make();
-    std::vector<Pair> found = measure::normalised(search->find(rows));
-    outcomes[k].pairs = found.size();
-    outcomes[k].hash = measure::hexadecimal(measure::hashOfPairs(found));
-    if (k == 0)
-      expected = std::move(found);
-    else
-      outcomes[k].mistake = difference(found, expected);
+  for (const std::vector<float>& rows : sets) {
+    Answer expected;
+    for (std::size_t k = 0; k < contenders.size(); ++k) {
+      Answer found = answerOf(contenders[k], rows);
+      const bool havePairs = contenders[k].givesPairs && contenders.front().givesPairs;
+      if (&rows == &sets.front()) outcomes[k].pairs = found.count;
+      if (&rows == &sets.front() && contenders[k].givesPairs)
+        outcomes[k].hash = measure::hexadecimal(measure::hashOfPairs(found.pairs));
+      if (k == 0)
+        expected = std::move(found);
+      else if (outcomes[k].mistake.empty())
+        outcomes[k].mistake =
+            havePairs ? difference(found.pairs, expected.pairs) : difference(found.count, expected.count);
+    }
   }
   return outcomes;
 }
@@ -95,7 +116,7 @@ std::vector<Outcome> compareResults(std::span<const Contender> contenders, std::
 
 std::vector<Outcome> contest(std::span<const Contender> contenders, const BoxSets& sets,
                              const measure::Effort& effort) {
-  std::vector<Outcome> outcomes = compareResults(contenders, sets.front());
+  std::vector<Outcome> outcomes = compareResults(contenders, sets);
   const std::vector<measure::Summary> summaries = takeTurns(contenders, sets, effort);
   for (std::size_t k = 0; k < outcomes.size(); ++k) outcomes[k].times = summaries[k];
   return outcomes;

@@ -45,6 +45,7 @@ class CountingSearch final : public Search {
     m_count = m_overlaps.count(BoxView::fromRows(rows));
     return {};
   }
+  [[nodiscard]] std::uint64_t count() const noexcept override { return m_count; }
 
  private:
   OverlapSearch m_overlaps;
