@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 // The broad phase of a Bullet world, step by step: ours beside btDbvtBroadphase, on the same boxes in the same run. The
 // boxes are those of real bodies that fall into a pile, and of a gas, moving and at rest; what is timed is what Bullet
-// asks of a broad phase in a step, setAabb() of every body and calculateOverlappingPairs().
+// asks of a broad phase in a step, setAabb() of every body and calculateOverlappingPairs(). The pairs of each step that
+// are exact are compared, off the clock. Ends with 1 if some differ.
+//   bullet_benchmark [BODIES [STEPS]]
 #include <btBulletDynamicsCommon.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -13,9 +16,12 @@
 #include <memory>
 #include <random>
 #include <string>
+#include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "Median.h"
+#include "Number.h"
 #include "ProcessorTime.h"
 #include "allpairs/bullet/BulletBroadphase.h"
 
@@ -113,14 +119,17 @@ struct Timing {
   double moving = 0.0;
   double pairing = 0.0;
   int pairs = 0;
-  int exactPairs = 0;
+  std::size_t exactPairs = 0;
 
   [[nodiscard]] double total() const { return moving + pairing; }
 };
 
-/// How many pairs of a cache overlap by the boxes themselves.
-int exactPairs(btOverlappingPairCache& cache) {
-  int count = 0;
+using Pairs = std::vector<std::pair<std::ptrdiff_t, std::ptrdiff_t>>;
+using Numbers = std::unordered_map<const btBroadphaseProxy*, std::ptrdiff_t>;
+
+/// The pairs of a cache that overlap by the boxes themselves, by the numbers of their bodies.
+Pairs exactPairs(btOverlappingPairCache& cache, const Numbers& numbers) {
+  Pairs exact;
   const btBroadphasePairArray& pairs = cache.getOverlappingPairArray();
   for (int i = 0; i < pairs.size(); ++i) {
     const btBroadphaseProxy& a = *pairs[i].m_pProxy0;
@@ -129,16 +138,34 @@ int exactPairs(btOverlappingPairCache& cache) {
     for (int axis = 0; axis < 3; ++axis) {
       isPair = isPair && a.m_aabbMin[axis] <= b.m_aabbMax[axis] && b.m_aabbMin[axis] <= a.m_aabbMax[axis];
     }
-    count += isPair ? 1 : 0;
+    if (isPair) exact.emplace_back(std::minmax({numbers.at(&a), numbers.at(&b)}));
   }
-  return count;
+  std::sort(exact.begin(), exact.end());
+  return exact;
 }
 
+/// What a contender is shown, and the pairs of each step: the first to be asked writes them, the others compare.
+struct Showing {
+  const Film& film;
+  std::vector<Pairs> expected{};
+  bool isSame = true;
+
+  void compare(std::size_t step, Pairs pairs) {
+    if (step == expected.size())
+      expected.push_back(std::move(pairs));
+    else
+      isSame = isSame && pairs == expected[step];
+  }
+};
+
 /// Shows a film to a broad phase; the times are of a step, without the first ones.
-Timing show(const Film& film, btBroadphaseInterface& broadphase) {
+Timing show(Showing& showing, btBroadphaseInterface& broadphase, bool compares) {
+  const Film& film = showing.film;
   std::vector<btBroadphaseProxy*> proxies;
+  Numbers numbers;
   for (int i = 0; i < film[0].size(); ++i) {
     proxies.push_back(broadphase.createProxy(film[0][i].min, film[0][i].max, 0, nullptr, 1, -1, nullptr));
+    numbers[proxies.back()] = i;
   }
   Timing timing;
   const std::size_t first = film.size() / 4;
@@ -151,12 +178,13 @@ Timing show(const Film& film, btBroadphaseInterface& broadphase) {
     const double middle = processorSeconds();
     broadphase.calculateOverlappingPairs(nullptr);
     const double end = processorSeconds();
+    if (compares) showing.compare(step, exactPairs(*broadphase.getOverlappingPairCache(), numbers));
     if (step < first) continue;
     timing.moving += (middle - start) / static_cast<double>(film.size() - first);
     timing.pairing += (end - middle) / static_cast<double>(film.size() - first);
   }
   timing.pairs = broadphase.getOverlappingPairCache()->getNumOverlappingPairs();
-  timing.exactPairs = exactPairs(*broadphase.getOverlappingPairCache());
+  timing.exactPairs = exactPairs(*broadphase.getOverlappingPairCache(), numbers).size();
   for (btBroadphaseProxy* proxy : proxies) broadphase.destroyProxy(proxy, nullptr);
   return timing;
 }
@@ -172,17 +200,23 @@ std::unique_ptr<btBroadphaseInterface> makeNumbered() {
   return std::make_unique<allpairs::BulletBroadphase>(options);
 }
 
-/// Each shows the film in turns.
-void compare(const std::string& name, const Film& film) {
+/// Each is shown the film in turns; the first time the pairs are compared. Returns whether they are the same.
+bool compare(const std::string& name, const Film& film) {
   constexpr int kRepetitions = 9;
   const std::array<Contender, 3> contenders{{
       {"btDbvtBroadphase", [] { return std::make_unique<btDbvtBroadphase>(); }},
       {"BulletBroadphase", [] { return std::make_unique<allpairs::BulletBroadphase>(); }},
       {"with numbers", makeNumbered},
   }};
+  Showing showing{film};
+  std::array<bool, contenders.size()> areSame{};
   std::array<std::vector<Timing>, contenders.size()> timings;
   for (int run = 0; run < kRepetitions; ++run) {
-    for (std::size_t i = 0; i < contenders.size(); ++i) timings[i].push_back(show(film, *contenders[i].make()));
+    for (std::size_t i = 0; i < contenders.size(); ++i) {
+      if (run == 0) showing.isSame = true;
+      timings[i].push_back(show(showing, *contenders[i].make(), run == 0));
+      if (run == 0) areSame[i] = showing.isSame;
+    }
   }
   const Timing theirs = median(timings[0]);
   for (std::size_t i = 0; i < contenders.size(); ++i) {
@@ -190,18 +224,19 @@ void compare(const std::string& name, const Film& film) {
     fmt::print(
         "{:<12} {:<17} {:8.3f} ms a step ({:.3f} setAabb, {:.3f} pairs), {} pairs, {} of them exact, ratio {:.2f}{}\n",
         name, contenders[i].name, timing.total() * 1e3, timing.moving * 1e3, timing.pairing * 1e3, timing.pairs,
-        timing.exactPairs, theirs.total() / timing.total(),
-        theirs.exactPairs == timing.exactPairs ? "" : "; THE PAIRS DIFFER");
+        timing.exactPairs, theirs.total() / timing.total(), areSame[i] ? "" : "; THE PAIRS DIFFER");
   }
+  return std::all_of(areSame.begin(), areSame.end(), [](bool isSame) { return isSame; });
 }
 
 }  // namespace
 
 int main(int count, char** arguments) {
-  const int bodies = count > 1 ? std::atoi(arguments[1]) : 10000;
-  const int steps = count > 2 ? std::atoi(arguments[2]) : 120;
+  const int bodies = numberAt(1, count, arguments, 10000);
+  const int steps = numberAt(2, count, arguments, 120);
   const Film gas = gasOf(bodies, steps);
-  compare("gas", gas);
-  compare("at rest", restOf(gas));
-  compare("pile", pileOf(bodies, steps));
+  bool isSame = compare("gas", gas);
+  isSame = compare("at rest", restOf(gas)) && isSame;
+  isSame = compare("pile", pileOf(bodies, steps)) && isSame;
+  return isSame ? EXIT_SUCCESS : EXIT_FAILURE;
 }

@@ -2,7 +2,8 @@
 // A robot of 50 links among obstacles, as motion planners ask FCL: does it collide with itself, and with the world? Our
 // manager beside DynamicAABBTreeCollisionManager, in turns, on the same poses, each of which is another one. A manager
 // is made for each pose, or kept and updated; several threads check poses against one world. What is timed is managers
-// and their queries, with a callback that counts; the numbers of pairs are compared.
+// and their queries, with a callback that counts. Off the clock, the same is done with one that sums hashes of the
+// pairs, which are compared too. Ends with 1 if some differ.
 #include <fcl/broadphase/broadphase_dynamic_AABB_tree.h>
 #include <fcl/geometry/shape/box.h>
 #include <fmt/format.h>
@@ -12,6 +13,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <functional>
 #include <memory>
 #include <random>
@@ -28,12 +30,24 @@ namespace {
 using Object = fcl::CollisionObjectd;
 using Manager = fcl::BroadPhaseCollisionManagerd;
 
-constexpr std::size_t kLinks = 50;
+constexpr std::uint32_t kLinks = 50;
 constexpr std::size_t kPoses = 16;  ///< So many are checked in one timing.
 constexpr int kRounds = 41;
 
+/// Of a link, or of an obstacle, each from a beginning of its own.
+std::uint32_t numberOf(const Object& object) { return *static_cast<const std::uint32_t*>(object.getUserData()); }
+
 bool countPair(Object*, Object*, void* count) {
   ++*static_cast<std::uint64_t*>(count);
+  return false;
+}
+
+/// Sums hashes of pairs by the numbers of their bodies, which copies of a robot have in common.
+bool hashPair(Object* a, Object* b, void* sum) {
+  const auto [first, second] = std::minmax({numberOf(*a), numberOf(*b)});
+  std::uint64_t mixed = (std::uint64_t{first} << 32U | second) * 0x9E3779B97F4A7C15U;
+  mixed = (mixed ^ (mixed >> 29U)) * 0xBF58476D1CE4E5B9U;
+  *static_cast<std::uint64_t*>(sum) += mixed ^ (mixed >> 32U);
   return false;
 }
 
@@ -44,6 +58,8 @@ fcl::CollisionCallBack<double> volatile callback = countPair;
 struct Bodies {
   std::vector<std::unique_ptr<Object>> owned;
   std::vector<Object*> objects;
+  std::vector<std::unique_ptr<std::uint32_t>> numbers;
+  std::uint32_t firstNumber = 0;
 
   void add(const std::shared_ptr<fcl::Boxd>& shape, const fcl::Vector3d& place, const fcl::Quaterniond& turn) {
     owned.push_back(std::make_unique<Object>(shape));
@@ -51,6 +67,8 @@ struct Bodies {
     owned.back()->setQuatRotation(turn);
     owned.back()->computeAABB();
     objects.push_back(owned.back().get());
+    numbers.push_back(std::make_unique<std::uint32_t>(firstNumber + static_cast<std::uint32_t>(numbers.size())));
+    owned.back()->setUserData(numbers.back().get());
   }
 };
 
@@ -68,6 +86,7 @@ Bodies makeWorld(std::size_t count) {
   std::uniform_real_distribution<double> place(-half, half);
   const auto shape = std::make_shared<fcl::Boxd>(0.12, 0.08, 0.1);
   Bodies world;
+  world.firstNumber = kLinks;
   for (std::size_t i = 0; i < count; ++i) {
     world.add(shape, {place(random), place(random), place(random)}, randomTurn(random));
   }
@@ -179,17 +198,21 @@ std::vector<Bodies> makePoses(std::size_t count, unsigned seed) {
 struct Times {
   std::array<std::vector<double>, kMakes.size()> seconds;
   std::array<std::uint64_t, kMakes.size()> found{};
+  std::array<std::uint64_t, kMakes.size()> hashes{};
 
-  void print(std::size_t obstacles, const std::string& name) const {
+  /// Returns whether the pairs are the same.
+  bool print(std::size_t obstacles, const std::string& name) const {
+    const bool isSame = found[0] == found[1] && hashes[0] == hashes[1];
     const double theirs = median(seconds[0]);
     const double ours = median(seconds[1]);
     fmt::print("{:>5} obstacles, {:<30} tree {:9.2f} us, ours {:9.2f} us, ratio {:.2f}{}\n", obstacles, name,
-               theirs * 1e6, ours * 1e6, theirs / ours, found[0] == found[1] ? "" : "; THE PAIRS DIFFER");
+               theirs * 1e6, ours * 1e6, theirs / ours, isSame ? "" : "; THE PAIRS DIFFER");
+    return isSame;
   }
 };
 
 /// Each round has poses of its own; who begins changes from round to round.
-void compare(std::size_t obstacles, const Check& check) {
+bool compare(std::size_t obstacles, const Check& check) {
   Scene scene(obstacles);
   Times times;
   for (int round = 0; round < kRounds; ++round) {
@@ -199,14 +222,17 @@ void compare(std::size_t obstacles, const Check& check) {
       const double start = processorSeconds();
       for (Bodies& pose : poses) times.found[who] += check.run(scene, scene.contenders[who], pose);
       times.seconds[who].push_back((processorSeconds() - start) / static_cast<double>(kPoses));
+      callback = hashPair;
+      for (Bodies& pose : poses) times.hashes[who] += check.run(scene, scene.contenders[who], pose);
+      callback = countPair;
     }
   }
-  times.print(obstacles, check.name);
+  return times.print(obstacles, check.name);
 }
 
 /// Threads that check poses of their own, each against itself with a fresh manager and against one world. Processor
 /// time of all threads, per pose.
-void compareThreads(std::size_t obstacles, std::size_t threadCount) {
+bool compareThreads(std::size_t obstacles, std::size_t threadCount) {
   constexpr int kThreadRounds = 15;
   constexpr std::size_t kPosesOfThread = 64;
   Scene scene(obstacles);
@@ -229,16 +255,24 @@ void compareThreads(std::size_t obstacles, std::size_t threadCount) {
       for (std::thread& thread : threads) thread.join();
       times.seconds[who].push_back((processorSeconds() - start) / static_cast<double>(threadCount * kPosesOfThread));
       for (const std::uint64_t count : found) times.found[who] += count;
+      callback = hashPair;
+      for (std::size_t i = 0; round == 0 && i < threadCount; ++i) {
+        for (const Bodies& pose : poses[i])
+          times.hashes[who] += checkItself(own.make, pose) + checkWorld(*own.world, pose);
+      }
+      callback = countPair;
     }
   }
-  times.print(obstacles, fmt::format("{} threads, self and world", threadCount));
+  return times.print(obstacles, fmt::format("{} threads, self and world", threadCount));
 }
 
 }  // namespace
 
 int main() {
+  bool isSame = true;
   for (const std::size_t obstacles : {20U, 50U, 200U, 1000U, 5000U}) {
-    for (const Check& check : kChecks) compare(obstacles, check);
-    for (const std::size_t threads : {1U, 2U, 4U, 8U}) compareThreads(obstacles, threads);
+    for (const Check& check : kChecks) isSame = compare(obstacles, check) && isSame;
+    for (const std::size_t threads : {1U, 2U, 4U, 8U}) isSame = compareThreads(obstacles, threads) && isSame;
   }
+  return isSame ? EXIT_SUCCESS : EXIT_FAILURE;
 }
