@@ -15,7 +15,7 @@ a box; medians of rounds on other worlds, in which the ways took turns ([decisio
 | kept | a `WorldsSearch` that is kept |
 | once | the function `overlapsInWorlds()` |
 
-Recorded in [benchmarks-worlds.csv](benchmarks-worlds.csv) as `worlds_benchmark` prints it. AVX2 was asked for by name, and a call on 5 boxes
+Recorded by hand in [benchmarks-worlds.csv](benchmarks-worlds.csv) from what `worlds_benchmark` prints, for each instruction set. AVX2 was asked for by name, and a call on 5 boxes
 then uses its vectors, where it would test pairs one by one otherwise:
 
 """
