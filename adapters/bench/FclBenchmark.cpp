@@ -2,8 +2,8 @@
 // Self-collision of many objects in FCL, and queries with objects among few and many: our manager beside
 // DynamicAABBTreeCollisionManager and its _Array sister, on the same objects in turns, step by step. What is timed is
 // what a program does in a step, update() and collide() or distance(), with a callback that counts or measures boxes
-// and that no compiler can see into; which pairs it gets, and which least distances, is compared outside of the time. Ends with 1 if
-// some differ.
+// and that no compiler can see into; which pairs it gets, and which least distances, is compared outside of the time.
+// Ends with 1 if some differ.
 //   fcl_benchmark [OBJECTS]
 #include <fcl/broadphase/broadphase_dynamic_AABB_tree.h>
 #include <fcl/broadphase/broadphase_dynamic_AABB_tree_array.h>

@@ -156,8 +156,8 @@ SceneMaker::SceneMaker(const SceneFamily& family) : m_family(family) {
   if (m_family.boxes() > kFewBoxes && hasTooManyPairs()) shrink();
 }
 
-/// Until the pairs of a scene are few enough. Where they would be too many even of points, since far from the origin too
-/// many of these are one point, the scene lies at the origin instead.
+/// Until the pairs of a scene are few enough. Where they would be too many even of points, since far from the origin
+/// too many of these are one point, the scene lies at the origin instead.
 void SceneMaker::shrink() {
   const double scale = std::exchange(m_scale, 0.0);
   if (hasTooManyPairs()) m_family.offset = 0.0;
