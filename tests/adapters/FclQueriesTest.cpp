@@ -205,6 +205,36 @@ TYPED_TEST(FclQueries, GivesTheSameCollisionsInTheFirstQueryAndInTheHundredth) {
   }
 }
 
+TYPED_TEST(FclQueries, AGroundThatReachesToTheLeastNumberIsMeasuredAsAnyOther) {
+  using S = TypeParam;
+  constexpr S kMost = std::numeric_limits<S>::max();
+  for (const int count : {1, 2, 4, 5, 8, 12, 70, 150}) {
+    FclBroadPhaseManager<S> manager;
+    std::vector<std::unique_ptr<BoxedObject<S>>> objects;
+    objects.push_back(std::make_unique<BoxedObject<S>>(-kMost, kMost));
+    objects.back()->set(2, -kMost, S(0));
+    for (int i = 0; i < count; ++i) {
+      objects.push_back(std::make_unique<BoxedObject<S>>(S(3 * i), S(3 * i + 1)));
+      objects.back()->set(2, S(2), S(3));
+    }
+    for (const auto& object : objects) manager.registerObject(object.get());
+    const auto measure = [](auto* a, auto* b, void* data, S& least) {
+      least = std::min(least, a->getAABB().distance(b->getAABB()));
+      *static_cast<S*>(data) = least;
+      return false;
+    };
+    S least = kMost;
+    manager.distance(&least, measure);
+    EXPECT_EQ(least, S(2)) << count;
+    BoxedObject<S> below(-kMost, kMost);
+    below.set(2, -kMost, S(1));
+    manager.unregisterObject(objects.front().get());
+    least = kMost;
+    manager.distance(&below, &least, measure);
+    EXPECT_EQ(least, S(1)) << count;
+  }
+}
+
 TYPED_TEST(FclQueries, AnInfiniteBoxMeetsAllBoxesAndNoEmptyOne) {
   using S = TypeParam;
   const S infinity = std::numeric_limits<S>::infinity();

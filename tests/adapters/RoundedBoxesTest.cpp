@@ -151,6 +151,28 @@ TEST(RoundedBoxes, KeepTheirBoundsWhenMoreCome) {
   }
 }
 
+TEST(RoundedBoxes, NoneIsNearABoxToInfinityThatIsNotThereOrEmpty) {
+  constexpr float kAll = std::numeric_limits<float>::infinity();
+  for (BoxId size = 1; size < 70; ++size) {
+    RoundedBoxes boxes;
+    for (BoxId i = 0; i < size; ++i) {
+      const double at = 10.0 * i;
+      boxes.set(i, Row{at, at, at, at + 1, at + 1, at + 1}.data());
+    }
+    boxes.set(size / 2, Row{kInfinity, kInfinity, kInfinity, -kInfinity, -kInfinity, -kInfinity}.data());
+    for (const RoundedBoxes::Row& query : {RoundedBoxes::Row{-kAll, -kAll, -kAll, kAll, kAll, kAll},
+                                           RoundedBoxes::Row{-kAll, -kAll, -kAll, kAll, kAll, -1}}) {
+      const BoxId nearest = boxes.nearest(query);
+      if (size == 1) {
+        ASSERT_EQ(nearest, kNoBox);
+        continue;
+      }
+      ASSERT_LT(nearest, size);
+      ASSERT_NE(nearest, size / 2);
+    }
+  }
+}
+
 TEST(RoundedBoxes, NoneIsNearWhatIsInfinitelyFarAway) {
   RoundedBoxes boxes;
   boxes.set(0, Row{0, 0, 0, 1, 1, 1}.data());

@@ -89,8 +89,10 @@ BoxId RoundedBoxes::nearest(const Row& box, BoxId except) const {
       const Four gap = apart > Four{} ? apart : Four{};
       square += gap * gap;
     }
-    // With other last bits, infinity is a NaN, which is never less; with all bits, any number is.
-    const auto key = as<Four>((as<FourBits>(square) & ~numbers) | number | as<FourBits>(number == others));
+    // With other last bits, infinity is a NaN, which is never less; with all bits, any number is. An empty box, as are
+    // those behind the last one, may have a gap of 0 to a box that is infinite.
+    const FourBits isEmpty = load(m_bounds.data() + at) > load(m_bounds.data() + 3 * m_room + at);
+    const auto key = as<Four>((as<FourBits>(square) & ~numbers) | number | FourBits(number == others) | isEmpty);
     least = key < least ? key : least;
   }
   const auto keys = as<FourBits>(least);
