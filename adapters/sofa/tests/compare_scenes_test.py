@@ -24,6 +24,8 @@ count = Path({folder!r}) / given
 runs = int(count.read_text()) if count.exists() else 0
 count.write_text(str(runs + 1))
 what = lists[given][min(runs, len(lists[given]) - 1)]
+if what == "hang" or isinstance(what, int):
+    print("class", given, "/phase", flush=True)
 if what == "hang":
     time.sleep(600)
 if isinstance(what, int):
@@ -74,7 +76,7 @@ class CompareScenes(unittest.TestCase):
         self.assertEqual(self.verdict({STOCK: ["/a /b", "/a /d"], OURS: ["/a /c"]}),
                          (0, "two runs without it differ as well"))
         self.assertEqual(self.verdict({STOCK: ["/a /b", "hang"], OURS: ["/a /c"]}, timeout=5),
-                         (1, "DIFFERS; repeated without it more than 5 s"))
+                         (1, "DIFFERS; repeated without it: more than 5 s"))
         self.assertEqual(self.verdict({STOCK: ["/a /b", 3], OURS: ["/a /c"]}),
                          (1, "DIFFERS; repeated without it: no luck"))
 
@@ -82,10 +84,15 @@ class CompareScenes(unittest.TestCase):
         self.assertEqual(self.verdict({STOCK: ["/a /b"], OURS: [3]}), (1, "FAILS: no luck"))
         self.assertEqual(self.verdict({STOCK: ["/a /b"], OURS: ["hang"]}, timeout=5), (1, "FAILS: more than 5 s"))
 
+    def test_a_scene_that_has_ours_must_end_with_it(self):
+        for what, said in ((3, "no luck"), ("hang", "more than 5 s")):
+            self.assertEqual(self.verdict({STOCK: ["/a /b"], OURS: [what]}, own=OURS, timeout=5),
+                             (1, f"FAILS: {said}; compared with {STOCK}"))
+
     def test_nothing_compared_is_an_error_of_its_own(self):
         self.assertEqual(self.verdict({STOCK: [3], OURS: ["/a /b"]}), (2, "does not run without it: no luck"))
         self.assertEqual(self.verdict({STOCK: ["hang"], OURS: ["/a /b"]}, timeout=5),
-                         (2, "more than 5 s without it"))
+                         (2, "does not run without it: more than 5 s"))
         self.assertEqual(self.verdict({STOCK: [""], OURS: [""]}), (2, "has no broad phase that runs"))
 
 

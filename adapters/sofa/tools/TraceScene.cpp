@@ -18,6 +18,7 @@ void printClasses(const SceneRun& run) {
   for (BroadPhase* phase : run.broadPhases()) {
     std::printf("class %s %s\n", phase->getClassName().c_str(), phase->getPathName().c_str());
   }
+  std::fflush(stdout);  // said also where a step ends the program
 }
 
 void printPairs(int step, const SceneRun& run) {

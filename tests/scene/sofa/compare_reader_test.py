@@ -124,7 +124,7 @@ class CompareReader(unittest.TestCase):
         self.assertEqual(status, 1)
         self.assertIn("/a.scn | 1 | 0 | FAILS: the reader ends with 2: usage |", text)
         self.assertIn("/b.scn | 1 | 0 | FAILS: the reader ends with signal 11 |", text)
-        self.assertIn("0 are refused by the reader, which fails with 2.", text)
+        self.assertIn("0 are refused by the reader, and of 2 it fails.", text)
         status, text = self.compare({"a.scn": sofa}, {"a.scn": ("hang", "", 0)}, "--timeout", "5")
         self.assertEqual(status, 1)
         self.assertIn("/a.scn | 1 | 0 | FAILS: more than 5 s |", text)
