@@ -42,7 +42,8 @@ TEST_F(SofaGraph, ANodeThatIsNeitherActivatedNorNotIsActiveAndSaysSo) {
   const auto scene = readIn(R"(<MechanicalObject/>
     <Node name="A" activated="no"><PointModel name="p"/></Node>
     <Node name="B" activated="@/A.activated"><PointModel name="p"/></Node>
-    <Node name="C" activated=""><PointModel name="p"/></Node>)");
+    <Node name="C" activated=""><PointModel name="p"/></Node>
+    <Node name="D" activated="false"><Node name="E" activated="no"><PointModel name="p"/></Node></Node>)");
   EXPECT_THAT(pathsOf(scene), ElementsAre("/A/p", "/B/p", "/C/p"));
   ASSERT_THAT(scene.warnings, SizeIs(3)) << "one is that there is no pipeline";
   EXPECT_EQ(scene.warnings[1].subject, "/A");

@@ -167,6 +167,7 @@ PipelineDescription describePipeline(Evaluation& evaluation, const PipelineParts
 
 /// Says which nodes are taken as active although they do not say so in a way that can be read.
 void warnOfActivation(const Node& node, SceneDescription& scene) {
+  if (!node.active) return;
   if (const std::string_view text = node.badActivation; !text.empty())
     scene.warnings.push_back(
         {.file = *node.place.file,
