@@ -90,7 +90,7 @@ complete -c allpairs -n '__fish_seen_subcommand_from info' -F
 complete -c allpairs -n '__fish_seen_subcommand_from elements' -s h -l help -d 'Print this help message and exit'
 complete -c allpairs -n '__fish_seen_subcommand_from elements' -l distance -x -d 'Report candidates up to D apart on every axis'
 complete -c allpairs -n '__fish_seen_subcommand_from elements' -l between -d 'Only candidates between two meshes'
-complete -c allpairs -n '__fish_seen_subcommand_from elements' -l threads -x -d 'Number of threads with -o; 0: one per core. Else one counts'
+complete -c allpairs -n '__fish_seen_subcommand_from elements' -l threads -x -d 'Number of threads with -o; 0: one per core'
 complete -c allpairs -n '__fish_seen_subcommand_from elements' -l format -x -a 'table json' -d 'Output format; default: by the extension of FILE; table for .txt and for none'
 complete -c allpairs -n '__fish_seen_subcommand_from elements' -l allow-outside -d 'Let inputs name files outside of their own folders'
 complete -c allpairs -n '__fish_seen_subcommand_from elements' -l max-memory -x -d 'Read within so much memory; by default 256M and 256 bytes for each byte of the files, at most half of the machine\'s'

@@ -206,7 +206,7 @@ void addElements(CLI::App& program) {
       ->type_name("");
   addDistance(*command, settings->distance, "Report candidates up to D apart on every axis");
   command->add_flag("--between", settings->between, "Only candidates between two meshes");
-  addThreads(*command, settings->threads)->description("Number of threads with -o; 0: one per core. Else one counts");
+  addThreads(*command, settings->threads)->description("Number of threads with -o; 0: one per core");
   addFormat(*command, settings->format, kElementFormats);
   addReadLimits(*command, settings->input.limits);
   addOutput(*command, settings->output);

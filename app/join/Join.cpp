@@ -101,14 +101,9 @@ std::string summaryText(const join::JoinSummary& summary, const std::string& out
   return text + '\n';
 }
 
-/// What is left of a join that did not end.
-std::string goingOn(const std::filesystem::path& work) {
-  return "what is complete is in " + work.string() + ", and --resume goes on";
-}
-
-/// The same where a signal ends it, perhaps behind a line that shows progress.
-std::string goingOnLine(const std::filesystem::path& work) {
-  const std::string text = "allpairs: stopped; " + printable(goingOn(work)) + '\n';
+/// What is said where a signal ends a join, perhaps behind a line that shows progress.
+std::string stoppedLine(const std::filesystem::path& work) {
+  const std::string text = "allpairs: stopped; the work folder " + printable(work.string()) + " stays, for --resume\n";
   return ::isatty(STDERR_FILENO) == 1 ? "\r\033[K" + text : text;
 }
 
@@ -137,8 +132,9 @@ void runJoin(const JoinSettings& settings) {
   options.work = settings.work;
   if (options.work.empty()) options.work = (isFile ? settings.output : settings.shared.sets.paths.front()) + ".work";
   JoinLine line;
+  sayOnSignal(options.work, stoppedLine(options.work));
   options.progress = [&line, &options, isInFolder = false](const join::JoinProgress& progress) mutable {
-    if (!std::exchange(isInFolder, true)) sayOnSignal(options.work, goingOnLine(options.work));
+    if (!std::exchange(isInFolder, true)) sayOnSignal(options.work, stoppedLine(options.work));  // perhaps another
     line.show(progress);
   };
   join::JoinSummary summary;
@@ -164,7 +160,8 @@ void runJoin(const JoinSettings& settings) {
     const bool isOfInput = std::find(read.begin(), read.end(), problem.path()) != read.end();
     if (isOfInput || problem.path() == options.work || problem.path() == manifest) throw;
     if (!std::filesystem::exists(manifest)) throw;
-    throw FileError(problem.path(), problem.problem() + "; " + goingOn(options.work));
+    throw FileError(problem.path(),
+                    problem.problem() + "; what is complete is in " + options.work.string() + ", and --resume goes on");
   }
   line.clear();
   warnOfEmpty(settings.shared, summary.empty);

@@ -363,11 +363,11 @@ TEST(JoinOfManyBoxes, NamesItsWorkFolderWhereASignalEndsIt) {
     const ProgramRun run = runScript("cd '" + folder.path().string() +
                                      "' && { rm -rf p.npy.work; \"$0\" join boxes.npy -o p.npy --memory 64M & i=0; "
                                      "until [ -e p.npy.work/manifest ] || "
-                                     "[ $i = 600 ]; do sleep 0.05; i=$((i + 1)); done; kill -" +
+                                     "[ $i = 4000 ]; do sleep 0.05; i=$((i + 1)); done; kill -" +
                                      signal + " $!; wait $!; }");
     EXPECT_GT(run.status, 128) << signal;
     EXPECT_EQ(run.err.substr(0, run.err.find('\n') + 1),  // the shell may add a word for the signal
-              "allpairs: stopped; what is complete is in p.npy.work, and --resume goes on\n");
+              "allpairs: stopped; the work folder p.npy.work stays, for --resume\n");
     EXPECT_TRUE(std::filesystem::exists(folder.path() / "p.npy.work/manifest")) << signal;
   }
 }

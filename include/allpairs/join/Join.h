@@ -114,7 +114,8 @@ using ResultSink = FunctionRef<void(std::string_view)>;
 ///            categories and masks, and 8 per pair (16 of more than 2^32 boxes in a set); as many per pair for the
 ///            result, on the disk of options.output; and where boxes have more pairs than memory holds, about as much
 ///            again as these pairs take while they are put in order, or twice, or of very many boxes in little memory
-///            three times (docs/scale.md; planFiles() says how much). Where a disk is estimated to be too small it throws before it writes.
+///            three times (docs/scale.md; planFiles() says how much). Where a disk is estimated to be too small it
+///            throws before it writes.
 /// Resume:    what is complete is in a manifest, which is replaced atomically, with checksums of the files; a file that
 ///            was damaged is made again, and a manifest that was throws FileError. So do inputs of another size or time
 ///            of change than before. The result's bytes are the same.
