@@ -221,10 +221,7 @@ class Calls {
     const allpairs_world_options* const options = maybeNull(&given);
     const allpairs_status status = checked(allpairs_world_create(options, &handle.world));
     require((status == ALLPAIRS_OK) == (handle.world != nullptr), "a world is there if its creation succeeded");
-    if (options == nullptr) return;
-    handle.distance = given.distance;
-    handle.order = given.order;
-    handle.accepts = given.accept != nullptr;
+    if (options != nullptr) handle.take(given);
   }
 
   allpairs_properties properties() {
@@ -420,7 +417,7 @@ class Calls {
   void betweenWorlds() {
     const CWorld& first = anyHandle();
     const CWorld& second = anyHandle();
-    compareBetween(first, second, m_choices.byte() == 255, m_salt);
+    compareBetween(first, second, m_choices.byte() == 255);
   }
 
   void createElements() {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <functional>
 #include <iterator>
 #include <numeric>
@@ -23,7 +24,18 @@ struct CWorld {
   double distance = 0.0;
   allpairs_order order = ALLPAIRS_BY_FIRST;
   bool accepts = false;
+  void* context = nullptr;
   std::uint32_t queried = kEveryWorld;  ///< Whose boxes queries consider.
+
+  /// As much of the options as their size says, which is what the library reads.
+  void take(const allpairs_world_options& given) {
+    allpairs_world_options read{};
+    std::memcpy(&read, &given, std::min(given.struct_size, sizeof(read)));
+    distance = read.distance;
+    order = read.order;
+    accepts = read.accept != nullptr;
+    context = read.accept_context;
+  }
 };
 
 /// What a world tells of its boxes, for double loops.
@@ -230,7 +242,7 @@ class CQueries {
 };
 
 /// The pairs of two worlds are those of the double loop. Whether `accept` passes them is asked of the first.
-inline void compareBetween(const CWorld& first, const CWorld& second, bool givesNull, std::uint8_t salt) {
+inline void compareBetween(const CWorld& first, const CWorld& second, bool givesNull) {
   allpairs_pairs pairs{};
   const allpairs_status status =
       checked(allpairs_world_find_between(first.world, second.world, givesNull ? nullptr : &pairs));
@@ -248,7 +260,7 @@ inline void compareBetween(const CWorld& first, const CWorld& second, bool gives
     for (const auto& [j, other] : b.boxes) {
       const double d = distance + p.margin + other.properties.margin;
       if (test::WorldOracle::apart(one.box, other.box, d) || !test::WorldOracle::mayPair(p, other.properties)) continue;
-      if (!first.accepts || acceptSome(&salt, i, j)) expected.push_back({i, j});
+      if (!first.accepts || acceptSome(first.context, i, j)) expected.push_back({i, j});
     }
   }
   std::sort(expected.begin(), expected.end(), [&a](Pair x, Pair y) { return a.isBefore(x, y); });

@@ -29,8 +29,10 @@ inline allpairs_status checked(allpairs_status status) {
   return status;
 }
 
+/// The context is null where a struct is too short for it.
 inline bool acceptSome(void* context, std::uint32_t first, std::uint32_t second) {
-  return (first * 3 + second + *static_cast<const std::uint8_t*>(context)) % 4 != 0;
+  const std::uint32_t salt = context == nullptr ? 0 : *static_cast<const std::uint8_t*>(context);
+  return (first * 3 + second + salt) % 4 != 0;
 }
 
 struct Seen {
