@@ -317,14 +317,10 @@ class ObjectBroadPhase {
   /// Asks about pairs but for one, of which that was done, the nearest first.
   template <class Ask>
   bool askInTurn(std::vector<NearPair<S>>& near, Pair except, const Ask& ask, S& least) const {
-    const auto isFarther = [](const NearPair<S>& a, const NearPair<S>& b) { return b < a; };
-    std::make_heap(near.begin(), near.end(), isFarther);
-    for (auto end = near.end(); end != near.begin() && near.front().distance <= limitOf(least); --end) {
-      const Pair pair = near.front().pair;
-      if (pair != except && ask(m_rows[pair.first], m_rows[pair.second], least)) return true;
-      std::pop_heap(near.begin(), end, isFarther);
-    }
-    return false;
+    const auto askOne = [&](const NearPair<S>& one) {
+      return one.pair != except && ask(m_rows[one.pair.first], m_rows[one.pair.second], least);
+    };
+    return nearestFirst(near.begin(), near.end(), askOne, least);
   }
 
   /// Asks about the objects behind one that are apart from it and near, but for a pair of which that was done.
@@ -424,12 +420,19 @@ class ObjectBroadPhase {
     return candidate.distance <= limitOf(least);
   }
 
-  /// Asks about the nearest first, as long as they are near enough.
+  /// Asks about objects, the nearest first.
   template <class Iterator, class AnyQuestion>
   static bool askInTurn(Iterator begin, Iterator end, const AnyQuestion& question, const S& least) {
-    const auto isFarther = [](const Candidate& a, const Candidate& b) { return b < a; };
+    return nearestFirst(
+        begin, end, [&](const Candidate& one) { return question.ask(one.id); }, least);
+  }
+
+  /// Asks about the nearest first, as long as they are near enough.
+  template <class Iterator, class Ask>
+  static bool nearestFirst(Iterator begin, Iterator end, const Ask& ask, const S& least) {
+    const auto isFarther = [](const auto& a, const auto& b) { return b < a; };
     for (std::make_heap(begin, end, isFarther); begin != end && begin->distance <= limitOf(least); --end) {
-      if (question.ask(begin->id)) return true;
+      if (ask(*begin)) return true;
       std::pop_heap(begin, end, isFarther);
     }
     return false;
