@@ -18,10 +18,11 @@ struct Removed {
   mutable std::atomic<bool> isSet = true;
 };
 
-/// Likewise.
+/// Likewise, for which the last one knows those before it.
 struct Said {
   std::string file;
   std::string line;
+  const Said* older = nullptr;
 };
 
 // A signal handler sees nothing but what is global.
@@ -65,7 +66,7 @@ void keepOnSignal(std::string_view path) noexcept {
 }
 
 void sayOnSignal(std::string file, std::string line) {
-  said = std::make_unique<Said>(Said{std::move(file), std::move(line)}).release();
+  said = std::make_unique<Said>(Said{std::move(file), std::move(line), said}).release();
 }
 
 void installSignalCleanup() {
