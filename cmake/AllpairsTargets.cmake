@@ -161,9 +161,10 @@ endfunction()
 
 # Adds a GoogleTest program from the given sources; each TEST is a test of its own for ctest. With AS_CXX17 it is compiled as
 # that, and the names of its tests begin so. Of the sources behind ONE_THREAD no test begins a thread, nor does a program
-# that it runs: they tell ThreadSanitizer nothing, and are left out there. Without other sources there is no program then.
+# that it runs in a way that tests of other sources do not: they tell ThreadSanitizer nothing, and are left out there, and so
+# are the tests that the filter THREADS does not name, where there is one. Without other sources there is no program then.
 function(allpairs_add_test target)
-  cmake_parse_arguments(PARSE_ARGV 1 ARG "AS_CXX17" "" "SOURCES;ONE_THREAD;LIBRARIES")
+  cmake_parse_arguments(PARSE_ARGV 1 ARG "AS_CXX17" "THREADS" "SOURCES;ONE_THREAD;LIBRARIES")
   foreach(source IN LISTS ARG_ONE_THREAD)
     file(STRINGS ${source} threads REGEX "std::(j?thread|async)|pthread_create|TbbExecutor|PoolExecutor|ChangingExecutor")
     if(threads)
@@ -177,15 +178,18 @@ function(allpairs_add_test target)
   endif()
   add_executable(${target} ${ARG_SOURCES})
   set(standard)
-  set(prefix)
+  set(discovery)
   if(ARG_AS_CXX17)
     set(standard AS_CXX17)
-    set(prefix TEST_PREFIX cxx17.)
+    list(APPEND discovery TEST_PREFIX cxx17.)
+  endif()
+  if(ARG_THREADS AND CMAKE_CXX_FLAGS MATCHES "-fsanitize=thread")
+    list(APPEND discovery TEST_FILTER ${ARG_THREADS})
   endif()
   allpairs_configure(${target} ${standard})
   target_include_directories(${target} PRIVATE "${PROJECT_SOURCE_DIR}/tests")
   target_link_libraries(${target} PRIVATE ${ARG_LIBRARIES} GTest::gmock GTest::gtest_main)
-  gtest_discover_tests(${target} WORKING_DIRECTORY "${PROJECT_SOURCE_DIR}" DISCOVERY_TIMEOUT 120 ${prefix})
+  gtest_discover_tests(${target} WORKING_DIRECTORY "${PROJECT_SOURCE_DIR}" DISCOVERY_TIMEOUT 120 ${discovery})
 endfunction()
 
 # Adds a program of one page, NAME.cpp or SOURCE, that is run as a test: it must succeed and print exactly what is in

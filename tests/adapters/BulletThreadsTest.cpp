@@ -12,6 +12,7 @@
 #include "BulletPairs.h"
 #include "allpairs/bullet/BulletBroadphase.h"
 #include "allpairs/parallel/TbbExecutor.h"
+#include "support/Sanitizers.h"
 
 namespace allpairs::test {
 namespace {
@@ -33,7 +34,7 @@ class WatchedThreads final : public Executor {
 
 /// Boxes of which a tenth moves in each of a few steps: who is with whom after each step, by number, in order.
 std::vector<std::vector<std::pair<int, int>>> pairsOfSteps(Executor* executor) {
-  constexpr int kBoxes = 30000;
+  constexpr int kBoxes = kIsSanitized ? 15000 : 30000;  // enough to be divided among threads
   constexpr int kSteps = 4;
   std::mt19937 random(5);
   std::uniform_real_distribution<btScalar> place(0, 40);

@@ -12,6 +12,7 @@
 #include "BulletBody.h"
 #include "BulletPairs.h"
 #include "allpairs/bullet/BulletBroadphase.h"
+#include "support/Sanitizers.h"
 
 namespace allpairs::test {
 namespace {
@@ -106,6 +107,7 @@ TEST(BulletWorld, ThousandsOfStepsHaveThePairsThatTheBoxesDemandAndEndAtRest) {
   FallingBodies scene(broadphase, 6, 10);
   for (int step = 0; step < 2000; ++step) {
     scene.step();
+    if (kIsSanitized && step % 4 != 0) continue;  // to look at all pairs of boxes takes longer than the step
     // A step of Bullet's ends with the motion; the pairs are those of the boxes before it, which the proxies still
     // have.
     ASSERT_EQ(pairsOf(*broadphase.getOverlappingPairCache()), demandedPairs(scene.world())) << "step " << step;

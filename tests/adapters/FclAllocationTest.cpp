@@ -15,6 +15,7 @@
 #include "allpairs/collision/CapsuleModel.h"
 #include "allpairs/collision/SphereModel.h"
 #include "support/AllocationCount.h"
+#include "support/Sanitizers.h"
 
 namespace allpairs::test {
 namespace {
@@ -83,7 +84,7 @@ TEST(FclAllocation, OfModelsOfManyPartsIsNoListOfAllPairs) {
 }
 
 TEST(FclAllocation, OfPartsThatAreFurtherApartThanTheirBoxesIsOneLookAtEachTwo) {
-  constexpr std::size_t kCount = 700;
+  constexpr std::size_t kCount = kIsSanitized ? 350 : 700;
   constexpr std::size_t kMostOfALook = 64;
   const auto first = bundle(kCount, 0.0);
   const auto second = bundle(kCount, 101.0);

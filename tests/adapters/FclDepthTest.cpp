@@ -14,6 +14,7 @@
 #include "FclExamine.h"
 #include "Shapes.h"
 #include "allpairs/fcl/FclNarrowPhase.h"
+#include "support/Sanitizers.h"
 
 namespace allpairs::test {
 namespace {
@@ -165,7 +166,7 @@ double reachAlong(const TriangleModel& first, const TriangleModel& second, const
 TEST(FclDepth, OfTurnedCuboidsIsThatOfTheirFaces) {
   Placing placing(31);
   int compared = 0;
-  for (int i = 0; i < 600; ++i) {
+  for (int i = 0; i < repeats(600); ++i) {
     // Thick and thin ones, deep in each other, or so that a little of them is shared along an axis or any direction.
     const auto first = placing.turnedCuboid(i % 2 == 0 ? 0.3 : 0.05);
     const auto still = placing.turnedCuboid(i % 4 < 2 ? 0.3 : 0.05);
@@ -179,13 +180,13 @@ TEST(FclDepth, OfTurnedCuboidsIsThatOfTheirFaces) {
     ++compared;
     EXPECT_THAT(examine(*first, *second).depth, isDepthOf(depth));
   }
-  EXPECT_GE(compared, 300);
+  EXPECT_GE(compared, repeats(300));
 }
 
 TEST(FclDepth, OfBallsOfTrianglesAndCuboidsIsThatOfTheirFaces) {
   Placing placing(32);
   int compared = 0;
-  for (int i = 0; i < 24; ++i) {
+  for (int i = 0; i < repeats(24); ++i) {
     const auto first = placing.turned(*ball({0, 0, 0}, placing.between(0.2, 1.0), 6));
     const auto still = placing.turnedCuboid(0.2);
     const Vec3 way = placing.direction();
@@ -197,7 +198,7 @@ TEST(FclDepth, OfBallsOfTrianglesAndCuboidsIsThatOfTheirFaces) {
     SCOPED_TRACE(::testing::Message() << "pair " << i);
     EXPECT_THAT(examine(*first, *second).depth, isDepthOf(depth));
   }
-  EXPECT_GE(compared, 12);
+  EXPECT_GE(compared, repeats(12));
 }
 
 TEST(FclDepth, OfContainedCuboidsIsThatOfTheFacesAround) {

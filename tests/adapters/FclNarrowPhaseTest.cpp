@@ -17,6 +17,7 @@
 #include "allpairs/collision/BruteForceBroadPhase.h"
 #include "allpairs/collision/CollisionPipeline.h"
 #include "allpairs/collision/DiscreteIntersection.h"
+#include "support/Sanitizers.h"
 
 namespace allpairs::test {
 namespace {
@@ -171,7 +172,7 @@ TEST(FclNarrowPhase, ABarThroughAPlateClashesHoweverThinAndTurnedTheyAre) {
     for (const double width : {0.1, 0.01, 1e-3}) {
       const auto plate = cuboid({-1, -1, 0}, {1, 1, thickness});
       const auto bar = cuboid({0.31, 0.17, -1.1}, {0.31 + width, 0.17 + width, 0.9});
-      for (int i = 0; i < 24; ++i) {
+      for (int i = 0; i < repeats(24); ++i) {
         const auto pair = examine(*turned(*plate, 0.13 * i), *turned(*bar, 0.13 * i));
         EXPECT_EQ(pair.state, ExactState::Clash) << thickness << ' ' << width << ' ' << i;
         const double most = std::max(thickness, width) / 2.0;  // in the middle of the plate, or of the bar
@@ -224,6 +225,7 @@ TEST(FclNarrowPhase, SmallAndLargePartsAreAsFarApartAndAsDeepInTheirUnit) {
     const auto right = ball({place, 0.1, 0.2}, 1.0, 32);
     const auto plain = examine(*turned(*left, 0.5), *turned(*right, 0.5));
     for (const double scale : {1e-9, 1e-6, 1e-3, 1e3, 1e6, 1e9}) {
+      if (kIsSanitized && scale > 1e-9 && scale < 1e9) continue;
       const auto pair = examine(*turned(*left, 0.5, scale), *turned(*right, 0.5, scale));
       EXPECT_EQ(pair.state, plain.state) << scale;
       EXPECT_NEAR(pair.distance / scale, plain.distance, kClose) << scale;
@@ -321,24 +323,32 @@ double squaredDistance(const Vec3& a, const Vec3& b) {
   return (a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) + (a[2] - b[2]) * (a[2] - b[2]);
 }
 
-/// How far a point is from the nearest of the middles of a ball's many small triangles.
-double distanceFromSurface(const Vec3& point, const TriangleModel& ball) {
-  double least = std::numeric_limits<double>::infinity();
+/// The middles of a ball's many small triangles.
+std::vector<Vec3> middlesOf(const TriangleModel& ball) {
+  std::vector<Vec3> middles;
   for (const auto& [a, b, c] : ball.triangles()) {
     Vec3 middle{};
     for (const auto vertex : {a, b, c}) {
       for (std::size_t axis = 0; axis < 3; ++axis) middle[axis] += ball.positions()[vertex][axis] / 3.0;
     }
-    least = std::min(least, squaredDistance(point, middle));
+    middles.push_back(middle);
   }
+  return middles;
+}
+
+/// How far a point is from the nearest of others.
+double distanceFromNearest(const Vec3& point, const std::vector<Vec3>& others) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Vec3& other : others) least = std::min(least, squaredDistance(point, other));
   return std::sqrt(least);
 }
 
 /// The depth of the deepest vertex of one ball around `centre` with radius 1 below the surface of another.
 double deepestVertex(const TriangleModel& outer, const Vec3& centre, const TriangleModel& inner) {
+  const std::vector<Vec3> surface = middlesOf(outer);
   double deepest = 0.0;
   for (const Vec3& vertex : inner.positions()) {
-    if (squaredDistance(vertex, centre) < 0.9) deepest = std::max(deepest, distanceFromSurface(vertex, outer));
+    if (squaredDistance(vertex, centre) < 0.9) deepest = std::max(deepest, distanceFromNearest(vertex, surface));
   }
   return deepest;
 }

@@ -15,6 +15,7 @@
 
 #include "FclExamine.h"
 #include "Shapes.h"
+#include "support/Sanitizers.h"
 
 namespace allpairs::test {
 namespace {
@@ -137,7 +138,7 @@ std::string textOf(const Cubes& cubes) {
 
 TEST_F(FclSolids, StatesAndDistancesAreThoseOfTheirCells) {
   std::array<int, kExactStates> seen{};
-  for (int i = 0; i < 1200; ++i) {
+  for (int i = 0; i < repeats(1200); ++i) {
     const Cubes first = someCubes();
     const Cubes second = i % 3 == 0 ? nearly(first) : someCubes();
     const std::string text = textOf(first) + '\n' + textOf(second) + '\n' + std::to_string(i);
@@ -167,7 +168,7 @@ TEST_F(FclSolids, StatesAndDistancesAreThoseOfTheirCells) {
   }
   for (const ExactState state :
        {ExactState::Duplicate, ExactState::Contained, ExactState::Clash, ExactState::Touching, ExactState::Apart}) {
-    EXPECT_GT(seen[static_cast<std::size_t>(state)], 100) << stateName(state);
+    EXPECT_GT(seen[static_cast<std::size_t>(state)], repeats(100)) << stateName(state);
   }
 }
 

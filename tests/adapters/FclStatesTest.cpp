@@ -20,6 +20,7 @@
 #include "allpairs/collision/LineModel.h"
 #include "allpairs/collision/PointModel.h"
 #include "allpairs/collision/SphereModel.h"
+#include "support/Sanitizers.h"
 
 namespace allpairs::test {
 namespace {
@@ -119,7 +120,7 @@ TEST(FclStates, TrianglesWithoutAnAreaChangeNothing) {
 }
 
 TEST(FclStates, TrianglesWithoutAnAreaChangeNothingWhereRoundingGivesThemOne) {
-  for (int i = 0; i < 40; ++i) {
+  for (int i = 0; i < repeats(40); ++i) {
     const auto placed = [i](const TriangleModel& model) {
       auto result = turned(model, 0.1 * i + 0.05, 3.7);
       std::vector<Vec3> points = result->positions();

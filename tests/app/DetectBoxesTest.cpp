@@ -10,6 +10,7 @@
 #include "support/Data.h"
 #include "support/Npy.h"
 #include "support/Oracle.h"
+#include "support/Sanitizers.h"
 #include "support/TempFolder.h"
 
 namespace allpairs::test {
@@ -73,6 +74,7 @@ TEST(DetectBoxes, EveryStrategyThreadCountAndFormatGivesTheDoubleLoopsPairs) {
   const std::string path = folder.write("boxes.npy", npyBytes(boxes));
   const std::vector<Pair> expected = oracle(boxes);
   ASSERT_GT(expected.size(), 300U);
+  unsigned round = 0;
   for (const char* strategy : {"auto", "exhaustive", "bvh"}) {
     for (const char* threads : {"0", "1", "3"}) {
       const std::vector<std::string> common{"detect", path, "--strategy", strategy, "--threads", threads, "--verify"};
@@ -83,9 +85,19 @@ TEST(DetectBoxes, EveryStrategyThreadCountAndFormatGivesTheDoubleLoopsPairs) {
         expectSuccess(result);
         return result.out;
       };
-      EXPECT_EQ(pairsOfNpy(run("npy")), expected);
-      EXPECT_EQ(pairsOfJson(run("json")), newestFirst(expected));
-      EXPECT_EQ(pairsOfCsv(run("csv")), newestFirst(expected));
+      // With a sanitizer in one format, which is another for each strategy and for each number of threads.
+      const unsigned only = (round + round / 3) % 3;
+      ++round;
+      const auto isTried = [only](unsigned format) { return !kIsSanitized || format == only; };
+      if (isTried(0)) {
+        EXPECT_EQ(pairsOfNpy(run("npy")), expected);
+      }
+      if (isTried(1)) {
+        EXPECT_EQ(pairsOfJson(run("json")), newestFirst(expected));
+      }
+      if (isTried(2)) {
+        EXPECT_EQ(pairsOfCsv(run("csv")), newestFirst(expected));
+      }
     }
   }
 }

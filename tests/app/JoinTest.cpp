@@ -17,6 +17,7 @@
 #include "support/Boxes.h"
 #include "support/Npy.h"
 #include "support/Oracle.h"
+#include "support/Sanitizers.h"
 #include "support/TempFolder.h"
 
 namespace allpairs::test {
@@ -26,10 +27,11 @@ namespace fs = std::filesystem;
 
 class JoinCommand : public ::testing::Test {
  protected:
-  /// Enough boxes that the least memory holds them in three cells.
-  void writeMany(const std::string& scene = "clusters") {
+  /// Enough boxes that the least memory holds them in three cells; with a sanitizer, which slows it down, in two.
+  void writeMany() { writeMany("clusters", kIsSanitized ? 210'000 : 300'000); }
+  void writeMany(const std::string& scene, std::size_t count) {
     many = folder.path() / "many.npy";
-    const ProgramRun run = runProgram({"generate", scene, "-n", "300000", "-o", many});
+    const ProgramRun run = runProgram({"generate", scene, "-n", std::to_string(count), "-o", many});
     expectSuccess(run);
   }
 
@@ -59,6 +61,9 @@ class JoinCommand : public ::testing::Test {
     expectSameBytesWhenKilled(join, "whole.npy");
   }
 
+  /// Boxes of a join that is killed: with a sanitizer so few that it comes as far.
+  static constexpr std::size_t kKilled = kIsSanitized ? 40'000 : 300'000;
+
   TempFolder folder;
   std::vector<Box> boxes = toDouble(randomBoxes(400, 31));
   std::string few = folder.write("few.npy", npyBytes(boxes, {.descr = "<f4"})).string();
@@ -71,7 +76,8 @@ TEST_F(JoinCommand, WritesTheBytesThatDetectWrites) {
   for (const char* memory : {"64M", "1G"}) {
     const ProgramRun run = runProgram({"join", many, "-o", in("join.npy"), "--memory", memory, "--threads", "1"});
     expectSuccess(run);
-    EXPECT_NE(run.out.find("among 300,000 boxes -> "), std::string::npos) << run.out;
+    EXPECT_NE(run.out.find(kIsSanitized ? "among 210,000 boxes -> " : "among 300,000 boxes -> "), std::string::npos)
+        << run.out;
     EXPECT_TRUE(bytes("join.npy") == bytes("detect.npy")) << memory;
   }
   expectSuccess(runProgram({"join", many, "-o", in("join.npy"), "--threads", "2"}));
@@ -177,8 +183,8 @@ TEST_F(JoinCommand, WhatIsWrongWithValuesIsNamed) {
 }
 
 TEST_F(JoinCommand, WithMarginsKilledAtAnyMomentItGoesOnToTheSameBytes) {
-  writeMany();
-  std::vector<double> margins(300'000);
+  writeMany("clusters", kKilled);
+  std::vector<double> margins(kKilled);
   for (std::size_t i = 0; i < margins.size(); ++i) margins[i] = 1e-6 * static_cast<double>(i % 1'000);
   folder.write("margins.npy", npyNumbers(margins, "<f8"));
   const std::string join =
@@ -187,14 +193,14 @@ TEST_F(JoinCommand, WithMarginsKilledAtAnyMomentItGoesOnToTheSameBytes) {
 }
 
 TEST_F(JoinCommand, ASecondSetKilledAtAnyMomentGoesOnToTheSameBytes) {
-  writeMany();
-  expectSuccess(runProgram({"generate", "uniform", "-n", "100000", "-o", in("others.npy")}));
+  writeMany("clusters", kKilled);
+  expectSuccess(runProgram({"generate", "uniform", "-n", std::to_string(kKilled / 3), "-o", in("others.npy")}));
   const std::string join = "\"$0\" join many.npy --with others.npy -o join.npy --memory 64M --threads 1";
   expectSameBytesWhenKilled(join);
 }
 
 TEST_F(JoinCommand, KilledAtAnyMomentItGoesOnToTheSameBytes) {
-  writeMany();
+  writeMany("clusters", kKilled);
   expectSuccess(runProgram({"detect", many, "-o", in("detect.npy")}));
   expectSameBytesWhenKilled("\"$0\" join many.npy -o join.npy --memory 64M --threads 1", "detect.npy");
 }
@@ -210,11 +216,12 @@ TEST_F(JoinCommand, WritesToStandardOutputWhereThatIsAskedFor) {
 }
 
 TEST_F(JoinCommand, AFullDiskIsAnErrorAndWhatWasDoneStays) {
-  writeMany("needles");
+  writeMany("needles", kIsSanitized ? 75'000 : 300'000);
   // The shell counts blocks of 512 bytes: the boxes fit, and the pairs do not.
+  const std::string limit = kIsSanitized ? "ulimit -f 5000" : "ulimit -f 20000";
   const std::string enter = "cd '" + folder.path().string() + "' && ";
   const ProgramRun full =
-      runScript(enter + "ulimit -f 20000 && exec \"$0\" join many.npy -o join.npy --memory 1G --threads 1 --work w");
+      runScript(enter + limit + " && exec \"$0\" join many.npy -o join.npy --memory 1G --threads 1 --work w");
   expectFailure(full, kBadInput, "cannot be written: File too large");
   EXPECT_NE(full.err.find("; what is complete is in w, and --resume goes on"), std::string::npos) << full.err;
   EXPECT_FALSE(fs::exists(in("join.npy")));
@@ -251,14 +258,16 @@ TEST_F(JoinCommand, APlanSaysWhatPuttingPairsInOrderTakes) {
 }
 
 TEST_F(JoinCommand, APlanLeavesNothing) {
-  writeMany();
+  writeMany("clusters", kIsSanitized ? 60'000 : 300'000);
+  const std::string boxesText = kIsSanitized ? "boxes    60,000" : "boxes    300,000";
+  const std::string shareText = kIsSanitized ? ", 3,750 on each rank" : ", 18,750 on each rank";
   const ProgramRun run = runProgram({"plan", many, "--memory", "64M", "--work", folder.path()});
   expectSuccess(run);
-  EXPECT_TRUE(run.out.starts_with("boxes    300,000\ncells    ")) << run.out;
+  EXPECT_TRUE(run.out.starts_with(boxesText + "\ncells    ")) << run.out;
   EXPECT_NE(run.out.find("\ntime     about "), std::string::npos) << run.out;
   const ProgramRun ranks = runProgram({"plan", many, "--ranks", "16"});
   expectSuccess(ranks);
-  EXPECT_TRUE(ranks.out.starts_with("boxes    300,000, 18,750 on each rank\ncells    ")) << ranks.out;
+  EXPECT_TRUE(ranks.out.starts_with(boxesText + shareText + "\ncells    ")) << ranks.out;
   EXPECT_NE(ranks.out.find("\nnetwork  "), std::string::npos) << ranks.out;
   expectFailure(runProgram({"plan", many, "--ranks", "0"}), kWrongUsage, "--ranks");
   EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), 2);
@@ -358,7 +367,8 @@ TEST_F(JoinCommand, StandardOutputMayBeAFile) {
 
 TEST(JoinOfManyBoxes, NamesItsWorkFolderWhereASignalEndsIt) {
   const TempFolder folder;
-  expectSuccess(runProgram({"generate", "uniform", "-n", "4000000", "-o", folder.path() / "boxes.npy"}));
+  const std::string count = kIsSanitized ? "1000000" : "4000000";  // enough that it lasts until the signal
+  expectSuccess(runProgram({"generate", "uniform", "-n", count, "-o", folder.path() / "boxes.npy"}));
   for (const char* signal : {"TERM", "HUP"}) {
     const ProgramRun run = runScript("cd '" + folder.path().string() +
                                      "' && { rm -rf p.npy.work; \"$0\" join boxes.npy -o p.npy --memory 64M & i=0; "
@@ -375,7 +385,8 @@ TEST(JoinOfManyBoxes, NamesItsWorkFolderWhereASignalEndsIt) {
 TEST(PlanCommand, LeavesNothingWhereASignalEndsIt) {
   const TempFolder folder;
   const std::string boxes = folder.path() / "boxes.npy";
-  expectSuccess(runProgram({"generate", "uniform", "-n", "1000000", "-o", boxes}));  // a second to measure the time
+  const std::string count = kIsSanitized ? "250000" : "1000000";  // a second to measure the time
+  expectSuccess(runProgram({"generate", "uniform", "-n", count, "-o", boxes}));
   const std::filesystem::path work = folder.path() / "work";
   std::filesystem::create_directory(work);
   for (const char* signal : {"TERM", "HUP"}) {

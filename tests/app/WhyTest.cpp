@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "Expect.h"
+#include "support/Sanitizers.h"
 #include "support/TempFolder.h"
 
 namespace allpairs::test {
@@ -36,21 +37,27 @@ std::string whyOf(const std::string& input, const std::string& a, const std::str
   return run.out;
 }
 
+/// Whether the program is asked of a pair: of each, but with a sanitizer, if there are many models, of a third of them.
+bool isAsked(std::size_t first, std::size_t second, std::size_t models) {
+  return !kIsSanitized || models < 8 || (first + second) % 3 == 1;
+}
+
 /// The pairs that --why calls pairs, of all there could be, must be those that detect lists.
 void expectSamePairs(const std::string& input, const Arguments& more = {}) {
   Arguments words{"detect", input, "--format", "json"};
   words.insert(words.end(), more.begin(), more.end());
   const auto result = nlohmann::json::parse(runProgram(words).out);
+  const std::size_t count = result["models"].size();
   std::set<std::pair<std::size_t, std::size_t>> expected;
   for (const auto& pair : result["pairs"]) {
     const auto first = pair[0].get<std::size_t>();
     const auto second = pair[1].get<std::size_t>();
-    expected.emplace(std::min(first, second), std::max(first, second));
+    if (isAsked(first, second, count)) expected.emplace(std::min(first, second), std::max(first, second));
   }
   std::set<std::pair<std::size_t, std::size_t>> found;
-  const std::size_t count = result["models"].size();
   for (std::size_t i = 0; i < count; ++i) {
     for (std::size_t k = i; k < count; ++k) {
+      if (!isAsked(i, k, count)) continue;
       const std::string why = whyOf(input, std::to_string(i), std::to_string(k), more);
       if (why.find(" a pair") != std::string::npos && why.find(" no pair") == std::string::npos) found.emplace(i, k);
     }

@@ -10,6 +10,7 @@
 #include "Fixture.h"
 #include "allpairs/collision/CollisionPipeline.h"
 #include "allpairs/collision/DiscreteIntersection.h"
+#include "support/Sanitizers.h"
 
 namespace allpairs::test {
 namespace {
@@ -144,7 +145,7 @@ rc::Gen<Change> anyChange() {
 
 RC_GTEST_PROP(KeptSteps, AnySequenceOfStepsGivesTheListsOfStepsOnTheirOwn, ()) {
   const auto size = *rc::gen::inRange<std::size_t>(48, 80);
-  const auto changes = *rc::gen::container<std::vector<Change>>(60, anyChange());
+  const auto changes = *rc::gen::container<std::vector<Change>>(kIsSanitized ? 20 : 60, anyChange());
   ChangingScene scene(size);
   BruteForceBroadPhase kept;
   BruteForceBroadPhase plain;

@@ -14,6 +14,7 @@
 #include "allpairs/parallel/TbbExecutor.h"
 #include "support/Boxes.h"
 #include "support/ChangingExecutor.h"
+#include "support/Sanitizers.h"
 
 namespace allpairs {
 namespace {
@@ -55,12 +56,13 @@ TEST(Executor, KeepsItsThreadsBesideASmallerOne) {
 }
 
 TEST(Executor, GivesTheSameBytesForAnyNumberOfThreads) {
-  const std::vector<BoxF> boxes = test::randomBoxes(60000, 31);
+  const std::vector<BoxF> boxes = test::randomBoxes(test::kIsSanitized ? 20000 : 60000, 31);
+  constexpr std::size_t kExhaustive = test::kIsSanitized ? 4000 : 8000;
   parallel::TbbExecutor two(2);
   parallel::TbbExecutor eight(8);
   BackwardExecutor backward;
   for (const Strategy strategy : {Strategy::Exhaustive, Strategy::Bvh}) {
-    const std::span<const BoxF> part(boxes.data(), strategy == Strategy::Exhaustive ? 8000 : boxes.size());
+    const std::span<const BoxF> part(boxes.data(), strategy == Strategy::Exhaustive ? kExhaustive : boxes.size());
     for (const Order order : {Order::ByFirst, Order::BySecond, Order::Unordered}) {
       OverlapOptions options;
       options.strategy = strategy;
@@ -76,8 +78,8 @@ TEST(Executor, GivesTheSameBytesForAnyNumberOfThreads) {
 }
 
 TEST(Executor, MayHaveMoreOrFewerThreadsEachTimeItIsAsked) {
-  const std::vector<BoxF> boxes = test::randomBoxes(20000, 39);
-  const std::vector<BoxF> dense = test::randomBoxes(1400, 40, 30.0F);
+  const std::vector<BoxF> boxes = test::randomBoxes(test::kIsSanitized ? 10000 : 20000, 39);
+  const std::vector<BoxF> dense = test::randomBoxes(test::kIsSanitized ? 800 : 1400, 40, 30.0F);
   OverlapOptions options;
   for (const Order order : {Order::ByFirst, Order::BySecond, Order::Unordered}) {
     for (std::size_t first = 0; first < test::ChangingExecutor::kAnswers.size(); ++first) {
@@ -104,7 +106,7 @@ TEST(Executor, MayHaveMoreOrFewerThreadsEachTimeItIsAsked) {
 
 TEST(Executor, GivesTheSameBytesWhereFewBoxesTakeOneThread) {
   const std::vector<BoxF> boxes = test::randomBoxes(4097, 37);
-  for (std::size_t threads = 2; threads <= 8; ++threads) {
+  for (std::size_t threads = 2; threads <= 8; threads += test::kIsSanitized ? 3 : 1) {
     parallel::TbbExecutor executor(threads);
     OverlapSearch kept;
     for (const std::size_t size : {900U, 2047U, 2048U, 2049U, 4095U, 4097U, 2048U}) {

@@ -20,6 +20,7 @@
 #include "support/Boxes.h"
 #include "support/Corners.h"
 #include "support/Oracle.h"
+#include "support/Sanitizers.h"
 
 namespace allpairs {
 namespace {
@@ -101,7 +102,9 @@ TYPED_TEST(FewBesideMany, GiveTheLoopsPairsInEveryOrderLayoutAndInstructionSet) 
       const test::Corners<TypeParam> bCorners(b);
       const std::vector<Pair> fewFirst = pairsByLoop(a, b);
       const std::vector<Pair> fewSecond = pairsByLoop(b, a);
-      for (const std::string_view instructionSet : instructionSets()) {
+      for (std::size_t i = 0; i < instructionSets().size(); ++i) {
+        if (test::kIsSanitized && (seed / 2 + i) % instructionSets().size() != 0) continue;  // each in turn
+        const std::string_view instructionSet = instructionSets()[i];
         for (const Order order : {Order::ByFirst, Order::BySecond, Order::Unordered}) {
           SCOPED_TRACE(std::to_string(few) + " beside " + std::to_string(many) + ", " + std::string(instructionSet));
           OverlapSearch search({.order = order, .instructionSet = instructionSet});

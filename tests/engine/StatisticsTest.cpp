@@ -22,6 +22,7 @@
 #include "support/Boxes.h"
 #include "support/Numbers.h"
 #include "support/Oracle.h"
+#include "support/Sanitizers.h"
 #include "support/Strategies.h"
 
 namespace allpairs {
@@ -240,7 +241,10 @@ TEST(Statistics, BoxesSmallerThanAUnitOfFloat32TakeNoMoreTestsThanOthers) {
       for (std::size_t axis = 0; axis < 3; ++axis) cube.max[axis] = cube.min[axis] + side;
     }
     OverlapSearch search({.strategy = Strategy::Bvh});
-    EXPECT_EQ(test::toVector(search.find(cubes)), test::oracle(cubes));
+    const std::vector<Pair> found = test::toVector(search.find(cubes));
+    if (!test::kIsSanitized) {  // 200 million tests
+      EXPECT_EQ(found, test::oracle(cubes));
+    }
     return search.statistics().groupTests;
   };
   EXPECT_LT(testsOf(2e-7), testsOf(1e-3) * 11 / 10);

@@ -40,10 +40,10 @@ class StoppingExecutor final : public Executor {
 };
 
 /// Runs work with a stop at its first task, at its second, and so on, until there is none left; returns how often it
-/// was stopped. After each stop `check` runs without one.
+/// was stopped. After each stop `check` runs without one. Under a sanitizer only every fourth of the later tasks.
 std::size_t stopAtEachTask(StoppingExecutor& executor, const std::function<void()>& work,
                            const std::function<void()>& check) {
-  for (std::size_t tasks = 0;; ++tasks) {
+  for (std::size_t tasks = 0;; tasks += test::kIsSanitized && tasks >= 8 ? 4 : 1) {
     executor.left = tasks;
     executor.stop.clear();
     bool stopped = false;
@@ -126,11 +126,14 @@ TEST(Stop, AtAnyTaskOfASearchOfDenseBoxesOrOfManyWorldsIsHeeded) {
 }
 
 TEST(Stop, AFlagThatIsNotSetChangesNothing) {
-  const std::vector<BoxF> others = test::randomBoxes(5000, 93);
+  const std::vector<BoxF> others = test::randomBoxes(test::kIsSanitized ? 2000 : 5000, 93);
   const StopFlag stop;
   for (const Order order : {Order::ByFirst, Order::BySecond, Order::Unordered}) {
     for (const Strategy strategy : {Strategy::Bvh, Strategy::Exhaustive}) {
-      const std::vector<BoxF> boxes = test::randomBoxes(isSlow(strategy) ? 5000 : 20000, 92);
+      const std::vector<BoxF> boxes = test::randomBoxes(isSlow(strategy)     ? 2500
+                                                        : test::kIsSanitized ? 8000
+                                                                             : 20000,
+                                                        92);
       OverlapOptions options;
       options.order = order;
       options.strategy = strategy;
@@ -274,7 +277,7 @@ TEST(Stop, AFlagThatAsksIsHeededWheneverItIsAskedFor) {
     const StopFlag stop(ask);
     options.stop = &stop;
     OverlapSearch search(options);
-    for (bool isStopped = true; isStopped; ++answersNo) {
+    for (bool isStopped = true; isStopped; answersNo += test::kIsSanitized && answersNo >= 16 ? 5 : 1) {
       asked = 0;
       try {
         ASSERT_EQ(test::toVector(search.find(boxes)), expected) << answersNo;
@@ -302,7 +305,7 @@ TEST(Stop, WhereMemoryGrowsAndPairsAreComparedLeavesAStepToTheNext) {
   static_cast<void>(stopped.add(BoxView(boxes)));
   const auto expected = test::toVector(world.step().began);
   ASSERT_EQ(expected.size(), 4000U * 3999U / 2U);
-  for (answersNo = 1;; answersNo = answersNo * 3 / 2 + 1) {
+  for (answersNo = 1;; answersNo = (test::kIsSanitized ? answersNo * 3 : answersNo * 3 / 2) + 1) {
     asked = 0;
     try {
       ASSERT_EQ(test::toVector(stopped.step().began), expected);

@@ -13,6 +13,7 @@
 #include "support/Boxes.h"
 #include "support/Numbers.h"
 #include "support/Oracle.h"
+#include "support/Sanitizers.h"
 #include "support/Strategies.h"
 
 namespace allpairs {
@@ -45,7 +46,7 @@ std::vector<BoxF> inFloat(const std::vector<Box>& boxes) {
   return result;
 }
 
-/// Both sets of a test, of which the larger is at least `kMany` boxes.
+/// Both sets of a test, of which the larger is at least `kMet` boxes.
 struct Meeting {
   std::vector<Box> first;
   std::vector<Box> second;
@@ -53,18 +54,21 @@ struct Meeting {
 
 constexpr std::size_t kMany = 3000;
 
+/// Double loops take most of the time; several threads search no fewer than 2,048.
+constexpr std::size_t kMet = test::kIsSanitized ? 2100 : kMany;
+
 std::vector<Meeting> meetings() {
   std::vector<Meeting> all{
-      {boxesIn(kMany, 1, 20, 0), boxesIn(1, 2, 1, 7)},
-      {boxesIn(1, 3, 2, 7), boxesIn(kMany, 4, 20, 0)},
-      {boxesIn(kMany, 5, 20, 0), boxesIn(200, 6, 3, 9)},
-      {boxesIn(1100, 7, 5, 3), boxesIn(kMany, 8, 20, 0)},
-      {boxesIn(kMany, 9, 20, 0), boxesIn(kMany, 10, 20, 19)},   // meet at a face
-      {boxesIn(kMany, 11, 20, 0), boxesIn(kMany, 12, 20, 40)},  // nowhere
-      {boxesIn(kMany, 13, 20, 0), boxesIn(kMany, 14, 20, 0)},   // everywhere
-      {boxesIn(kMany, 15, 20, 0), std::vector<Box>(3, kEmptyBox)},
-      {boxesIn(kMany, 16, 20, 0), boxesIn(60, 17, 20, 0)},     // few that lie everywhere
-      {boxesIn(kMany, 18, 15, 1), boxesIn(kMany, 19, 20, 0)},  // also in a part of space
+      {boxesIn(kMet, 1, 20, 0), boxesIn(1, 2, 1, 7)},
+      {boxesIn(1, 3, 2, 7), boxesIn(kMet, 4, 20, 0)},
+      {boxesIn(kMet, 5, 20, 0), boxesIn(200, 6, 3, 9)},
+      {boxesIn(1100, 7, 5, 3), boxesIn(kMet, 8, 20, 0)},
+      {boxesIn(kMet, 9, 20, 0), boxesIn(kMet, 10, 20, 19)},   // meet at a face
+      {boxesIn(kMet, 11, 20, 0), boxesIn(kMet, 12, 20, 40)},  // nowhere
+      {boxesIn(kMet, 13, 20, 0), boxesIn(kMet, 14, 20, 0)},   // everywhere
+      {boxesIn(kMet, 15, 20, 0), std::vector<Box>(3, kEmptyBox)},
+      {boxesIn(kMet, 16, 20, 0), boxesIn(60, 17, 20, 0)},    // few that lie everywhere
+      {boxesIn(kMet, 18, 15, 1), boxesIn(kMet, 19, 20, 0)},  // also in a part of space
   };
   all.back().first.resize(12);
   // Empty boxes have no say in what the bounds are, and infinite ones have.
@@ -187,7 +191,7 @@ std::vector<Box> boxesOfAnyForm(std::size_t n, std::mt19937& random, std::size_t
 
 TEST(TwoSets, OfWhichFewLieAmongManyGiveTheOraclesPairs) {
   std::mt19937 random(51);
-  for (int round = 0; round < 60; ++round) {
+  for (int round = 0; round < (test::kIsSanitized ? 30 : 60); ++round) {
     const std::size_t n = 1100 + random() % 2000;
     const std::size_t m = 9 + random() % (n / 32 - 8);
     const std::size_t flat = random() % 4;

@@ -16,6 +16,7 @@
 #include "support/Boxes.h"
 #include "support/ChangingExecutor.h"
 #include "support/PoolExecutor.h"
+#include "support/Sanitizers.h"
 
 namespace allpairs {
 namespace {
@@ -68,7 +69,7 @@ TEST_P(WorldThreads, MayBeMoreOrFewerEachTimeTheExecutorIsAsked) {
     std::vector<BoxF> boxes = test::randomBoxes(20000, 12);
     std::vector<BoxId> ids = serial.add(boxes);
     ASSERT_EQ(many.add(boxes), ids);
-    for (std::size_t frame = 0; frame < 4; ++frame) {
+    for (std::size_t frame = 0; frame < (test::kIsSanitized ? 2 : 4); ++frame) {
       ASSERT_NO_FATAL_FAILURE(test::compareLists(many.step(), serial.step()));
       ASSERT_EQ(many.findBetween(many), serial.findBetween(serial));
       ASSERT_EQ(many.findOverlapping(BoxView(boxes)).values, serial.findOverlapping(BoxView(boxes)).values);
@@ -209,7 +210,7 @@ TEST(WorldQueries, MayBeFirstAfterAStepWhileOtherConstMembersAreCalled) {
 
 TEST(WorldThreads, QueriesBetweenTwoWorldsAtOnceLeaveBothUsable) {
   constexpr int kThreads = 3;
-  constexpr int kQueries = 200'000;
+  constexpr int kQueries = test::repeats(200'000);
   World first;
   World second;
   std::vector<std::thread> threads;

@@ -18,6 +18,7 @@
 #include "allpairs/Error.h"
 #include "allpairs/World.h"
 #include "support/Boxes.h"
+#include "support/Sanitizers.h"
 
 namespace allpairs {
 namespace {
@@ -116,7 +117,7 @@ struct LargeWorlds {
 };
 
 TEST(WorldLife, LargeWorldsFollowTheBoxesThatComeAndGo) {
-  for (unsigned seed = 0; seed < 4; ++seed) {
+  for (unsigned seed = 0; seed < test::repeats(4U); ++seed) {
     LargeWorlds worlds(seed);
     for (std::size_t i = 0; i < 900; ++i) worlds.add(worlds.properties());
     for (std::size_t frame = 0; frame < 40; ++frame) {

@@ -16,6 +16,7 @@
 #include "allpairs/World.h"
 #include "support/Boxes.h"
 #include "support/Numbers.h"
+#include "support/Sanitizers.h"
 
 namespace allpairs {
 namespace {
@@ -346,7 +347,7 @@ class Lives {
 Life anyLife() {
   Life life;
   life.boxes = *rc::gen::element<std::size_t>(0, 1, 3, 20, 100, 400);
-  life.steps = life.boxes > 100 ? 12 : 40;
+  life.steps = test::repeats<std::size_t>(life.boxes > 100 ? 12 : 40);
   life.movedShare = *rc::gen::element(1.0, 0.5, 0.1, 0.02);
   life.staticShare = *rc::gen::element(0.0, 0.0, 0.5, 0.9, 1.0);
   life.float32 = *rc::gen::arbitrary<bool>();
@@ -385,7 +386,7 @@ TEST_P(WorldInstructionSet, GivesTheOraclesListsOfWorldsLargeAndSmall) {
       life.float32 = float32;
       life.worlds = worlds;
       life.boxes = worlds == 2 ? 1200 : 600;
-      life.steps = 8;
+      life.steps = test::kIsSanitized ? 3 : 8;
       life.staticShare = float32 ? 0.0 : 0.3;
       life.seed = static_cast<std::uint32_t>(worlds);
       WorldOptions options;
@@ -398,6 +399,7 @@ TEST_P(WorldInstructionSet, GivesTheOraclesListsOfWorldsLargeAndSmall) {
 TEST_P(WorldInstructionSet, GivesTheOraclesListsAndQueries) {
   Life life;
   life.boxes = 800;
+  if (test::kIsSanitized) life.steps = 8;
   life.staticShare = 0.3;
   life.seed = 7;
   for (const double share : {1.0, 0.05}) {

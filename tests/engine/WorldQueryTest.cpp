@@ -17,11 +17,14 @@
 #include "allpairs/Overlaps.h"
 #include "allpairs/World.h"
 #include "support/Numbers.h"
+#include "support/Sanitizers.h"
 
 namespace allpairs {
 namespace {
 
 using test::kInfinity;
+
+constexpr int kQueries = test::repeats(300);
 
 /// Small and large numbers of both signs, some of which no float32 can hold.
 class ExtremeNumbers {
@@ -120,7 +123,7 @@ void WorldQueryExtremes::compareSweeps() {
 
 void WorldQueryExtremes::compareNearest() {
   std::vector<std::array<double, 3>> points;
-  for (int i = 0; i < 300; ++i) points.push_back(m_numbers.point());
+  for (int i = 0; i < kQueries; ++i) points.push_back(m_numbers.point());
   for (const std::size_t count : {std::size_t{1}, std::size_t{9}, std::size_t{1000}}) {
     const ResultLists<Neighbor> lists = m_world.findNearest(points, count);
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -131,7 +134,7 @@ void WorldQueryExtremes::compareNearest() {
 
 void WorldQueryExtremes::compareNearestToBoxes() {
   std::vector<Box> boxes;
-  for (int i = 0; i < 300; ++i) boxes.push_back(m_numbers.box());
+  for (int i = 0; i < kQueries; ++i) boxes.push_back(m_numbers.box());
   for (const std::size_t count : {std::size_t{1}, std::size_t{9}, std::size_t{1000}}) {
     const ResultLists<Neighbor> lists = m_world.findNearest(BoxView(std::span<const Box>(boxes)), count);
     for (std::size_t i = 0; i < boxes.size(); ++i) {
@@ -144,7 +147,7 @@ void WorldQueryExtremes::compareNearestToBoxes() {
 
 void WorldQueryExtremes::compareOverlapping() {
   std::vector<Box> boxes;
-  for (int i = 0; i < 300; ++i) boxes.push_back(m_numbers.box());
+  for (int i = 0; i < kQueries; ++i) boxes.push_back(m_numbers.box());
   const ResultLists<BoxId> lists = m_world.findOverlapping(BoxView(std::span<const Box>(boxes)));
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     EXPECT_EQ(listOf(lists[i]), m_oracle.overlapping(boxes[i], {})) << "box " << i;
@@ -153,7 +156,7 @@ void WorldQueryExtremes::compareOverlapping() {
 
 /// A fixed distance, and one that ends at that of the nearest box.
 void WorldQueryExtremes::compareVisits() {
-  for (int i = 0; i < 300; ++i) {
+  for (int i = 0; i < kQueries; ++i) {
     const Box box = m_numbers.box();
     const double distance = std::abs(m_numbers.any());
     std::map<BoxId, double> distances;

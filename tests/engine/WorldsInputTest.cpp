@@ -18,6 +18,7 @@
 #include "support/Boxes.h"
 #include "support/Numbers.h"
 #include "support/Oracle.h"
+#include "support/Sanitizers.h"
 
 namespace allpairs {
 namespace {
@@ -162,6 +163,7 @@ TEST(WorldsInput, AFilterOfOneWorldOrAllBesideIgnoredPairsGivesTheDoubleLoopsPai
     };
     WorldsSearch search;
     for (std::size_t mix = 0; mix < 54; ++mix) {
+      if (test::kIsSanitized && size == 500 && mix % 5 != 0) continue;  // the double loop takes long
       SCOPED_TRACE(std::to_string(size) + ' ' + std::to_string(mix));
       Rules rules{given(mix % 3, 1, 7), given(mix / 3 % 3, 2, 6), given(mix / 9 % 3, 0, 4), {}};
       if (mix / 27 != 0) rules.ignored = somePairs(static_cast<std::uint32_t>(size));

@@ -17,6 +17,7 @@
 #include "allpairs/scene/FileError.h"
 #include "support/Numbers.h"
 #include "support/PoolExecutor.h"
+#include "support/Sanitizers.h"
 
 namespace allpairs::test {
 namespace {
@@ -59,9 +60,10 @@ std::vector<Box> needles() {
 
 /// Some boxes in so many cells that they are kept apart.
 std::vector<Box> giants() {
-  std::vector<Box> boxes = uniform(3'000);
+  constexpr std::size_t kOthers = kIsSanitized ? 1'200 : 3'000;
+  std::vector<Box> boxes = uniform(kOthers);
   for (std::size_t i = 0; i < 30; ++i)
-    boxes.insert(boxes.begin() + static_cast<std::ptrdiff_t>(90 * i), cube(-1, -1, -1, 30));
+    boxes.insert(boxes.begin() + static_cast<std::ptrdiff_t>(kOthers / 33 * i), cube(-1, -1, -1, 30));
   return boxes;
 }
 

@@ -10,8 +10,12 @@
 #include <string_view>
 
 #include "JoinCase.h"
+#include "support/Sanitizers.h"
 
 namespace allpairs::test {
+
+/// From one step at which a join ends to the next: all of them, but with a sanitizer every third.
+inline constexpr std::size_t kStride = kIsSanitized ? 3 : 1;
 
 /// Counts the steps of a join and calls `end` at one of them.
 template <class End>
@@ -47,13 +51,13 @@ inline join::JoinOptions resuming(const JoinCase& with) {
   return options;
 }
 
-/// Kills a join at each of its steps, and resumes it.
+/// Kills a join at its steps, and resumes it.
 inline void expectSameBytesAfterEachKill(JoinCase& with, const std::string& expected) {
-  std::size_t kills = 0;
-  for (std::size_t step = 0; runKilledAt(with, step); ++step, ++kills) {
+  std::size_t step = 0;
+  for (; runKilledAt(with, step); step += kStride) {
     ASSERT_TRUE(with.run(resuming(with)) == expected) << step;
   }
-  EXPECT_GT(kills, 20U) << "steps";
+  EXPECT_GT(step, 20U) << "steps";
 }
 
 /// Leaves a join that has found the pairs of all cells.

@@ -50,7 +50,7 @@ TEST(Resume, AfterAnErrorAtAnyStepTheBytesAreTheSame) {
   const std::string expected = expectedBytes(boxes);
   std::size_t resumed = 0;
   bool isComplete = false;
-  for (std::size_t step = 0; !isComplete; ++step) {
+  for (std::size_t step = 0; !isComplete; step += kStride) {
     try {
       isComplete = with.run(endingAt(with, step, [] { throw std::runtime_error("enough"); })) == expected;
       ASSERT_TRUE(isComplete);

@@ -20,4 +20,12 @@ inline constexpr bool kIsSanitized = __has_feature(address_sanitizer) || kIsThre
 inline constexpr bool kIsSanitized = kIsThreadSanitized;
 #endif
 
+/// How often a test does anew, with other random inputs, what it repeats `often` times: under a sanitizer, where each
+/// takes several times as long, a quarter as often. Sanitizers look for what every repetition does; answers are compared
+/// by all of them where none is at work.
+template <class Count>
+constexpr Count repeats(Count often) {
+  return kIsSanitized ? (often + 3) / 4 : often;
+}
+
 }  // namespace allpairs::test

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "app/Expect.h"
+#include "support/Sanitizers.h"
 #include "support/TempFolder.h"
 
 namespace allpairs::test {
@@ -81,16 +82,18 @@ bool isIn(const Outline& outline, const Point2& p) {
   return result;
 }
 
+constexpr int kPointsPerLine = kIsSanitized ? 400 : 2000;  // lines are about 2 long
+constexpr double kAccuracy = 2.0 / kPointsPerLine;
+
 /// How deep one outline lies in the other, and how far it is from it, by many points of its lines.
 std::array<double, 2> depthAndDistance(const Outline& a, const Outline& b) {
-  constexpr int kPoints = 2000;  // of a line
   double depth = 0.0;
   double distance = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < a.size(); ++i) {
     const Point2& from = a[i];
     const Point2& to = a[(i + 1) % a.size()];
-    for (int k = 0; k < kPoints; ++k) {
-      const double t = static_cast<double>(k) / kPoints;
+    for (int k = 0; k < kPointsPerLine; ++k) {
+      const double t = static_cast<double>(k) / kPointsPerLine;
       const Point2 p{from[0] + t * (to[0] - from[0]), from[1] + t * (to[1] - from[1])};
       const double away = distanceTo(b, p);
       distance = std::min(distance, away);
@@ -123,11 +126,11 @@ TEST(Assemblies, GearsThatMeshAreApartAndClashWhenOneIsTurned) {
     const double deepest = std::max(depth, back);
     if (deepest == 0.0) {
       EXPECT_EQ(pair["state"], "apart") << turn;
-      EXPECT_NEAR(pair["distance"].get<double>(), std::min(distance, other), 1e-3) << turn;
+      EXPECT_NEAR(pair["distance"].get<double>(), std::min(distance, other), kAccuracy) << turn;
       continue;
     }
     EXPECT_EQ(pair["state"], "clash") << turn;
-    EXPECT_LE(pair["depth"].get<double>(), deepest + 1e-3) << turn;
+    EXPECT_LE(pair["depth"].get<double>(), deepest + kAccuracy) << turn;
     EXPECT_GE(pair["depth"].get<double>(), 0.9 * deepest) << turn;
   }
 }

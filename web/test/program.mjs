@@ -102,7 +102,7 @@ function clothAt(time) {
 export const clothFrames = (count) => Array.from({ length: count }, (_, time) => write(`cloth${time}.obj`, clothAt(time)));
 
 const args = ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist"];
-const isFirefox = basename(process.argv[1]) === "firefox.test.mjs"; // which imports other files of tests
+export const isFirefox = basename(process.argv[1]) === "firefox.test.mjs"; // which imports other files of tests
 let browser;
 
 /** Firefox, with which several files of tests begin, starts once. */

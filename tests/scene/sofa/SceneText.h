@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <limits>
@@ -55,7 +56,7 @@ class SceneTest : public testing::Test {
  protected:
   [[nodiscard]] SceneDescription read(const std::string& text, bool partial = false) const {
     const auto file = m_folder.write("scene.scn", text);
-    return describeScene(file, {.searchRoots = m_roots, .partial = partial, .sofa = m_sofa});
+    return describeScene(file, {.searchRoots = m_roots, .partial = partial, .maxMemory = m_maxMemory, .sofa = m_sofa});
   }
 
   /// The same with an outermost node around the text.
@@ -82,6 +83,7 @@ class SceneTest : public testing::Test {
   Folder m_folder;
   std::vector<std::filesystem::path> m_roots;
   SofaVersion m_sofa = SofaVersion::FromScene;
+  std::uint64_t m_maxMemory = 0;  ///< As ReadOptions::maxMemory.
 };
 
 /// Six numbers: the corners of a root box.
