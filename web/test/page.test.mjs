@@ -114,15 +114,25 @@ inChromium("pairs of the same two bodies are one row, with its pairs inside", as
 
 /** All pairs of the page's list, as sets of two names; it holds the rows in sight only, so it is scrolled through. */
 async function allPairs(page) {
-  const pairs = new Set();
-  const count = Number((await page.textContent("#pairs-status")).split(" ")[0].replaceAll(",", "").replace("none", "0"));
-  for (let next = 0; next < count;) {
-    await page.$eval("#pairs-list", (list, part) => (list.scrollTop = part * list.scrollHeight), next / count);
-    await page.waitForSelector(`#pairs-list .row[data-index="${next}"]`, { state: "attached" });
-    for (const row of await rowsOf(page, "pairs-list")) pairs.add([row[0], row[1] ?? row[0]].sort().join(" | "));
-    next = await page.$$eval("#pairs-list .row", (rows) => 1 + Math.max(...rows.map((row) => Number(row.dataset.index))));
-  }
-  return pairs;
+  const rows = await page.evaluate(async () => {
+    const list = document.querySelector("#pairs-list");
+    const count = Number(document.querySelector("#pairs-status").textContent.split(" ")[0].replaceAll(",", "").replace("none", "0"));
+    const deadline = Date.now() + 30_000;
+    const found = [];
+    for (let next = 0; next < count;) {
+      list.scrollTop = (next / count) * list.scrollHeight;
+      while (!list.querySelector(`.row[data-index="${next}"]`)) {
+        if (Date.now() > deadline) throw new Error(`row ${next} of ${count} does not come`);
+        await new Promise(requestAnimationFrame);
+      }
+      for (const row of list.querySelectorAll(".row")) {
+        found.push([...row.querySelectorAll(".name")].map((name) => name.textContent));
+        next = Math.max(next, 1 + Number(row.dataset.index));
+      }
+    }
+    return found;
+  });
+  return new Set(rows.map((row) => [row[0], row[1] ?? row[0]].sort().join(" | ")));
 }
 
 inBoth("the margin slider finds the pairs of detect --distance", async () => {
