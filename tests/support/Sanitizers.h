@@ -20,12 +20,11 @@ inline constexpr bool kIsSanitized = __has_feature(address_sanitizer) || kIsThre
 inline constexpr bool kIsSanitized = kIsThreadSanitized;
 #endif
 
-/// How often a test does anew, with other random inputs, what it repeats `often` times: under a sanitizer, where each
-/// takes several times as long, a quarter as often. Sanitizers look for what every repetition does; answers are compared
-/// by all of them where none is at work.
+/// The number of random inputs that a test takes: `count`, or a quarter of it under a sanitizer, where each takes several
+/// times as long. A few inputs reach the code that a sanitizer watches; all of them are compared in builds without one.
 template <class Count>
-constexpr Count repeats(Count often) {
-  return kIsSanitized ? (often + 3) / 4 : often;
+constexpr Count repeats(Count count) {
+  return kIsSanitized ? (count + 3) / 4 : count;
 }
 
 }  // namespace allpairs::test
