@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Calls on few boxes, each on other boxes than the one before, since a processor learns the branches of a scene that it
-// sees again. First the calls that a user makes, in turns with a double loop; then, for each instruction set, the
-// exhaustive search divided by the hierarchy, which says where Automatic should change from one to the other.
+// sees again. First the calls that a user makes, in turns with a double loop; then overlaps() with what options there
+// are; then, for each instruction set, the exhaustive search divided by the hierarchy, which says where Automatic should
+// change from one to the other.
 //
 //   few_benchmark [--seconds S]
 #include <CLI/CLI.hpp>
@@ -192,6 +193,55 @@ void compareAllCalls(double seconds) {
   compareCalls<double>(kShares, seconds);
 }
 
+/// Options of each kind, for a set of boxes.
+struct FewOptions {
+  explicit FewOptions(std::size_t boxes) : margins(boxes, 0.001) {
+    for (std::uint32_t i = 0; i < boxes; ++i) groups.push_back(1 + i / 2);
+    distance.distance = 0.001;
+    grouped.filter.first.groups = groups;
+    asked.filter.accept = [](std::uint32_t i, std::uint32_t j) { return i / 2 != j / 2; };
+    inRegion.region = Box{{0, 0, 0}, {0.5, 1, 1}};
+  }
+
+  std::vector<double> margins;
+  std::vector<std::uint32_t> groups;
+  OverlapOptions distance;
+  OverlapOptions grouped;
+  OverlapOptions asked;
+  OverlapOptions inRegion;
+};
+
+template <class T>
+void compareOptions(double seconds) {
+  constexpr std::array<std::size_t, 12> kSizes{2, 4, 8, 9, 10, 12, 16, 24, 32, 48, 64, 96};
+  std::printf("\noverlaps() with options, float%zu:\n\n", 8 * sizeof(T));
+  std::printf(
+      "| boxes | none | distance | margins | groups | predicate | region |\n|---:|---:|---:|---:|---:|---:|---:|\n");
+  for (const std::size_t boxes : kSizes) {
+    const FewOptions options(boxes);
+    const auto with = [](const OverlapOptions& given) {
+      return [&given](const Scene<T>& scene) { return overlaps(BoxView::fromRows(scene.first), given).size(); };
+    };
+    const OverlapOptions none;
+    const auto withMargins = [&](const Scene<T>& scene) {
+      BoxView view = BoxView::fromRows(scene.first);
+      view.setMargins(options.margins);
+      return overlaps(view).size();
+    };
+    std::array<Contender<T>, 6> contenders{Contender<T>{"none", with(none)},
+                                           Contender<T>{"distance", with(options.distance)},
+                                           Contender<T>{"margins", withMargins},
+                                           Contender<T>{"groups", with(options.grouped)},
+                                           Contender<T>{"predicate", with(options.asked)},
+                                           Contender<T>{"region", with(options.inRegion)}};
+    const std::vector<Scene<T>> scenes = makeScenes<T>({boxes});
+    for (Contender<T>& contender : contenders) compete<T>({&contender, 1}, scenes, seconds / 6);
+    std::printf("| %zu", boxes);
+    for (const Contender<T>& contender : contenders) std::printf(" | %.0f", contender.leastNs);
+    std::printf(" |\n");
+  }
+}
+
 void compareStrategies(double seconds) {
   constexpr std::array<std::size_t, 9> kSizes{48, 64, 96, 128, 192, 256, 320, 384, 448};
   std::printf("\nExhaustive search divided by hierarchy, reused objects.\n\n| instruction set, order |");
@@ -226,6 +276,8 @@ int main(int argc, char** argv) {
   app.add_option("--seconds", seconds, "For each number of boxes")->capture_default_str();
   return allpairs::bench::runMain(app, argc, argv, [&] {
     compareAllCalls(seconds);
+    compareOptions<float>(seconds);
+    compareOptions<double>(seconds);
     compareStrategies(seconds);
     return 0;
   });

@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory_resource>
 #include <span>
 #include <utility>
@@ -119,31 +121,166 @@ void testPlain(const Sets& sets, Order order, TakePairs take) {
   take({pairs.data(), found});
 }
 
+/// Whether a loop may test the pairs: an instruction set that is asked for has to be there, and is used.
+bool canBeTested(const Sets& sets, const OverlapOptions& options) noexcept {
+  return pairsOf(sets) <= kTestedPairs && options.instructionSet.empty();
+}
+
+/// The pairs that overlap, whatever the options but the instruction set and the stop flag say.
 template <class T>
-OverlapStatistics findPlain(const Sets& sets, const OverlapOptions& options, Order order, TakePairs take) {
-  OverlapStatistics statistics;
-  statistics.boxTests = pairsOf(sets);
-  const auto taken = [&](std::span<const Pair> pairs) {
-    if (statistics.pairs != 0) checkStop(options.stop);  // Between parts.
-    statistics.pairs += pairs.size();
-    checkLimit(options.maxPairs, statistics.pairs);
-    if (!pairs.empty()) take(pairs);
-  };
-  // An instruction set that is asked for has to be there, and is used.
-  const bool isTested = statistics.boxTests <= kTestedPairs && options.instructionSet.empty();
-  const Kernels* const kernels = isTested ? nullptr : &chooseKernels(options);
-  if (statistics.boxTests == 0) return statistics;
+void findPlain(const Sets& sets, const OverlapOptions& options, Order order, TakePairs take) {
+  const Kernels* const kernels = canBeTested(sets, options) ? nullptr : &chooseKernels(options);
+  if (pairsOf(sets) == 0) return;
   checkStop(options.stop);
   if (kernels == nullptr) {
-    testPlain<T>(sets, order, taken);
+    testPlain<T>(sets, order, take);
   } else {
-    findByKernel<T>(sets, kernels->plain<T>(), order, taken);
+    findByKernel<T>(sets, kernels->plain<T>(), order, take);
   }
-  return statistics;
+}
+
+void findPlain(const Sets& sets, const OverlapOptions& options, Order order, TakePairs take) {
+  sets.first.isFloat64() ? findPlain<double>(sets, options, order, take) : findPlain<float>(sets, options, order, take);
+}
+
+/// A box that can be one of a pair.
+struct Candidate {
+  Box box;
+  double margin;
+  std::uint32_t id;
+};
+
+/// Those of a set: no others are empty or outside the region.
+std::span<const Candidate> readCandidates(const BoxView& boxes, const OverlapOptions& options, Candidate* candidates) {
+  std::size_t size = 0;
+  for (std::uint32_t i = 0; i < boxes.size(); ++i) {
+    const Candidate candidate{boxes[i], boxes.margin(i), i};
+    const double reach = options.distance + candidate.margin;
+    const bool isIn = options.region ? overlap(candidate.box, *options.region, reach) : !isEmpty(candidate.box);
+    if (isIn) candidates[size++] = candidate;
+  }
+  return {candidates, size};
+}
+
+/// The test of overlap(), without branches that a processor mispredicts.
+bool touch(const Box& a, const Box& b, double d) noexcept {
+  bool isApart = false;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    isApart |= static_cast<bool>(static_cast<int>(a.min[axis] > b.max[axis] + d) |
+                                 static_cast<int>(b.min[axis] > a.max[axis] + d));
+  }
+  return !isApart;
+}
+
+/// A plain loop over so few pairs, with all options.
+void testChecked(const Sets& sets, const OverlapOptions& options, Order order, TakePairs take) {
+  if (pairsOf(sets) == 0) return;
+  checkStop(options.stop);
+  std::array<Candidate, kTestedPairs + 1> candidates;
+  const std::span<const Candidate> first = readCandidates(sets.first, options, candidates.data());
+  const std::span<const Candidate> second =
+      sets.one ? first : readCandidates(sets.second, options, candidates.data() + first.size());
+  const bool bySecond = order == Order::BySecond;
+  PairsOnStack<kTestedPairs> pairs;
+  std::size_t found = 0;
+  const auto test = [&](const Candidate& a, const Candidate& b) {
+    pairs.data()[found] = {a.id, b.id};
+    found += static_cast<std::size_t>(touch(a.box, b.box, options.distance + a.margin + b.margin));
+  };
+  const std::span<const Candidate> rows = bySecond ? second : first;
+  const std::span<const Candidate> columns = bySecond ? first : second;
+  for (std::size_t row = 0; row < rows.size(); ++row) {
+    const std::size_t begin = sets.one && !bySecond ? row + 1 : 0;
+    const std::size_t end = sets.one && bySecond ? row : columns.size();
+    for (std::size_t column = begin; column < end; ++column) {
+      bySecond ? test(columns[column], rows[row]) : test(rows[row], columns[column]);
+    }
+  }
+  take({pairs.data(), PairTest::of(sets, options).select({pairs.data(), found})});
+}
+
+/// Whether half the distance and the margins can be added to the bounds in double so that they hold all that the exact
+/// test compares: nothing is subtracted, and no sum of them overflows.
+bool canBeWidened(const BoxView& boxes, double distance) noexcept {
+  constexpr double kMost = 1e300;
+  return distance >= 0.0 && distance <= kMost && boxes.leastMargin() >= 0.0 && boxes.greatestMargin() <= kMost;
+}
+
+/// Room for rows of a word of boxes.
+using WordRows = std::array<double, 6 * kWordBoxes>;
+
+/// Copies the boxes in double, as rows that are wider than the exact test has them if they are compared with a distance
+/// or margins. An empty box may become one that is not.
+BoxView copyWide(const BoxView& boxes, double distance, WordRows& rows) {
+  /// More than all sums here and in the exact test are rounded by.
+  constexpr double kSlack = 0x1p-48;
+  const bool widens = distance != 0.0 || boxes.hasMargins();
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    const Box box = boxes[i];
+    const double margin = 0.5 * distance + boxes.margin(i);
+    const auto reach = [&](double bound) {
+      if (!widens) return 0.0;
+      const double size = std::min(std::abs(bound), std::numeric_limits<double>::max());
+      return margin + kSlack * size + kSlack * margin + std::numeric_limits<double>::min();
+    };
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      rows[6 * i + axis] = box.min[axis] - reach(box.min[axis]);
+      rows[6 * i + axis + 3] = box.max[axis] + reach(box.max[axis]);
+    }
+  }
+  return BoxView::fromRows({rows.data(), 6 * boxes.size()});
+}
+
+/// One bit for each of a word of boxes, set if it is outside the region.
+std::uint64_t outsideOf(const BoxView& boxes, const OverlapOptions& options) noexcept {
+  std::uint64_t bits = 0;
+  for (std::size_t i = 0; options.region && i < boxes.size(); ++i) {
+    bits |= std::uint64_t{!overlap(boxes[i], *options.region, options.distance + boxes.margin(i))} << i;
+  }
+  return bits;
+}
+
+bool widens(const Sets& sets, const OverlapOptions& options) noexcept {
+  return options.distance != 0.0 || sets.first.hasMargins() || sets.second.hasMargins();
+}
+
+bool lieInRuns(const Sets& sets) noexcept { return sets.one ? isRun(sets.first) : areRuns(sets.first, sets.second); }
+
+/// Whether findChecked() takes the sets. Boxes of float32 that need copies are read into lanes in less time.
+bool canBeChecked(const Sets& sets, const OverlapOptions& options) noexcept {
+  if (std::max(sets.first.size(), sets.second.size()) > kWordBoxes) return false;
+  if (!widens(sets, options) && lieInRuns(sets)) return true;
+  return (sets.first.isFloat64() || sets.second.isFloat64()) && canBeWidened(sets.first, options.distance) &&
+         canBeWidened(sets.second, options.distance);
+}
+
+/// Finds the boxes of at most a word in each set that may overlap as if only bounds mattered, and asks of each such
+/// pair what else does.
+void findChecked(const Sets& sets, const OverlapOptions& options, Order order, TakePairs take) {
+  PairTest test = PairTest::of(sets, options);
+  test.requireExactTest(widens(sets, options));
+  const std::uint64_t outsideFirst = outsideOf(sets.first, options);
+  const std::uint64_t outsideSecond = sets.one ? outsideFirst : outsideOf(sets.second, options);
+  PairsOnStack<kPartSize + kVectorSlack> kept;
+  const auto check = [&](std::span<const Pair> pairs) {
+    std::size_t size = 0;
+    for (const Pair pair : pairs) {
+      const std::uint64_t outside = outsideFirst >> pair.first | outsideSecond >> pair.second;
+      kept.data()[size] = pair;
+      size += static_cast<std::size_t>((outside & 1U) == 0 && test.keeps(pair));
+    }
+    take({kept.data(), size});
+  };
+  if (!widens(sets, options) && lieInRuns(sets)) return findPlain(sets, options, order, check);
+  WordRows firstRows;
+  WordRows secondRows;
+  const BoxView first = copyWide(sets.first, options.distance, firstRows);
+  if (sets.one) return findPlain(Sets(first), options, order, check);
+  const BoxView second = copyWide(sets.second, options.distance, secondRows);
+  findPlain({first, second}, options, order, check);
 }
 
 OverlapStatistics findInTiles(const Sets& sets, const OverlapOptions& options, Order order, TakePairs take) {
-  checkOptions(sets, options);
   checkStop(options.stop);
   const Kernels& kernels = chooseKernels(options);
   PairTest test = PairTest::of(sets, options);
@@ -199,11 +336,23 @@ bool areFew(const Sets& sets, const OverlapOptions& options) {
 OverlapStatistics findFew(const Sets& sets, const OverlapOptions& options, Order order,
                           FunctionRef<void(std::span<const Pair>)> take) {
   if (areFewBesideMany(sets, options)) return findFewBesideMany(sets, options, order, take);
-  const bool isPlain =
-      onlyBoundsMatter(sets, options) && (sets.one ? isRun(sets.first) : areRuns(sets.first, sets.second));
-  if (!isPlain) return findInTiles(sets, options, order, take);
-  return sets.first.isFloat64() ? findPlain<double>(sets, options, order, take)
-                                : findPlain<float>(sets, options, order, take);
+  OverlapStatistics statistics;
+  statistics.boxTests = pairsOf(sets);
+  const auto taken = [&](std::span<const Pair> pairs) {
+    if (statistics.pairs != 0) checkStop(options.stop);  // Between parts.
+    statistics.pairs += pairs.size();
+    checkLimit(options.maxPairs, statistics.pairs);
+    if (!pairs.empty()) take(pairs);
+  };
+  if (onlyBoundsMatter(sets, options) && lieInRuns(sets)) {
+    findPlain(sets, options, order, taken);
+    return statistics;
+  }
+  checkOptions(sets, options);
+  const bool areTested = canBeTested(sets, options);
+  if (!areTested && !canBeChecked(sets, options)) return findInTiles(sets, options, order, take);
+  areTested ? testChecked(sets, options, order, taken) : findChecked(sets, options, order, taken);
+  return statistics;
 }
 
 OverlapStatistics countFew(const Sets& sets, const OverlapOptions& options) {
