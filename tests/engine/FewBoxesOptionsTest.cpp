@@ -191,10 +191,19 @@ void compare(Random& random, OverlapSearch& kept) {
   std::vector<Pair> found = test::toVector(areTwo ? kept.find(first.view, other.view) : kept.find(first.view));
   EXPECT_EQ(kept.statistics().pairs, expected.size());
   EXPECT_EQ(asked, offered);
+  const std::size_t batchSize = oneOf(random, std::array<std::size_t, 3>{1, 7, kBatchSize});
+  std::vector<Pair> streamed;
+  const auto append = [&](Span<const Pair> batch) {
+    EXPECT_TRUE(!batch.empty() && batch.size() <= batchSize && streamed.size() % batchSize == 0);
+    streamed.insert(streamed.end(), batch.begin(), batch.end());
+  };
+  areTwo ? kept.stream(first.view, other.view, append, batchSize) : kept.stream(first.view, append, batchSize);
   if (options.order == Order::Unordered) std::sort(made.begin(), made.end());
   if (options.order == Order::Unordered) std::sort(found.begin(), found.end());
   EXPECT_EQ(made, test::inOrder(expected, options.order));
   EXPECT_EQ(found, made);
+  if (options.order == Order::Unordered) std::sort(streamed.begin(), streamed.end());
+  EXPECT_EQ(streamed, found);
 }
 
 TEST(FewBoxesWithOptions, GiveTheOraclesPairs) {
@@ -218,6 +227,11 @@ TEST(FewBoxesWithOptions, BeyondTheLimitAreAnErrorThatLeavesTheSearchUsable) {
     EXPECT_THROW((void)kept.find(boxes), LimitExceeded) << n;
     EXPECT_THROW((void)kept.count(boxes), LimitExceeded) << n;
     EXPECT_EQ(kept.statistics().pairs, 0U) << n;
+    std::size_t streamed = 0;
+    const auto count = [&](Span<const Pair> batch) { streamed += batch.size(); };
+    EXPECT_THROW(kept.stream(boxes, count, 1), LimitExceeded) << n;
+    EXPECT_THROW(streamOverlaps(boxes, count, options, 1), LimitExceeded) << n;
+    EXPECT_LE(streamed, 2 * options.maxPairs) << n;
     options.maxPairs = odd;
     kept.setOptions(options);
     EXPECT_EQ(kept.find(boxes).size(), odd) << n;

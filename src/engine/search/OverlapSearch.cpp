@@ -197,6 +197,11 @@ std::uint64_t countOnce(const engine::Sets& sets, const OverlapOptions& options)
   return searchOnce(sets, options, [&](engine::Search& search) { return search.countMany(sets, options); });
 }
 
+void streamOnce(const engine::Sets& sets, PairVisitor visitor, const OverlapOptions& options, std::size_t batchSize) {
+  engine::Search search(engine::memoryOr(options.memory));
+  search.stream(sets, options, visitor, batchSize);
+}
+
 }  // namespace
 
 std::vector<Pair> overlaps(const BoxView& boxes, const OverlapOptions& options) {
@@ -225,12 +230,12 @@ std::uint64_t countOverlaps(const BoxView& first, const BoxView& second, const O
 }
 
 void streamOverlaps(const BoxView& boxes, PairVisitor visitor, const OverlapOptions& options, std::size_t batchSize) {
-  OverlapSearch(options).stream(boxes, visitor, batchSize);
+  streamOnce(engine::Sets(boxes), visitor, options, batchSize);
 }
 
 void streamOverlaps(const BoxView& first, const BoxView& second, PairVisitor visitor, const OverlapOptions& options,
                     std::size_t batchSize) {
-  OverlapSearch(options).stream(first, second, visitor, batchSize);
+  streamOnce({first, second}, visitor, options, batchSize);
 }
 
 Span<const std::string_view> instructionSets() { return engine::kernelNames(); }

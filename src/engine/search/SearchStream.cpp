@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "allpairs/Error.h"
+#include "search/FewBoxes.h"
 #include "search/Search.h"
 
 namespace allpairs::engine {
@@ -22,7 +23,6 @@ struct Overfull {};
 
 void Search::stream(const Sets& sets, const OverlapOptions& options, PairVisitor visitor, std::size_t batchSize) {
   if (batchSize == 0) throw InvalidArgument("a batch size of 0 pairs");
-  begin(sets, options);
   std::uint64_t given = 0;
   const auto give = [&](std::span<const Pair> pairs) {
     for (std::size_t begin = 0; begin < pairs.size(); begin += batchSize) {
@@ -32,6 +32,11 @@ void Search::stream(const Sets& sets, const OverlapOptions& options, PairVisitor
       visitor(batch);
     }
   };
+  if (pairsOf(sets) <= kMostFew * kMostFew && areFew(sets, options)) {
+    give(findAmongFew(sets, options, options.order));
+    return;
+  }
+  begin(sets, options);
   std::size_t likelyPairs = 0;
   const Readers readers = Readers::of(sets, options, *m_kernels);
   if (options.order != Order::Unordered && !choosesFlat(readers, options, likelyPairs)) {
