@@ -56,7 +56,7 @@ def neighbors(
     max_pairs : int, optional
         More pairs than this, each counted once, raise LimitExceeded.
 
-    The other parameters, and what is raised, are those of `overlaps`.
+    The other parameters, and what is raised, are those of `overlaps`; there is no ``order``.
 
     Returns
     -------
@@ -98,7 +98,7 @@ def neighbors_between(
 ) -> Rows:
     """The boxes of `second` that overlap each box of `first`, as rows like those of `neighbors`.
 
-    The parameters, and what is raised, are those of `overlaps_between`.
+    The parameters, and what is raised, are those of `overlaps_between`, without ``order``.
 
     Returns
     -------

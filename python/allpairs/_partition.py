@@ -327,7 +327,7 @@ def count_in_cell(
 ) -> int:
     """The number of pairs of `overlaps_in_cell`; uses memory independent of that number.
 
-    The parameters are those of `overlaps_in_cell`. Boxes whose margins differ are in the order of their ids.
+    The parameters are those of `overlaps_in_cell`, without ``ids``. Boxes whose margins differ are in the order of their ids.
 
     Examples
     --------
@@ -356,7 +356,7 @@ def count_between_in_cell(
 ) -> int:
     """The number of pairs of `overlaps_between_in_cell`; uses memory independent of that number.
 
-    The parameters are those of `overlaps_between_in_cell`.
+    The parameters are those of `overlaps_between_in_cell`, without ``ids``.
 
     Examples
     --------

@@ -170,7 +170,8 @@ def count(
 ) -> int:
     """The number of pairs of `overlaps`; uses memory independent of that number.
 
-    The parameters are those of `overlaps`. More pairs than ``max_pairs`` raise LimitExceeded as soon as they are found.
+    The parameters are those of `overlaps`, without ``order``. More pairs than ``max_pairs`` raise LimitExceeded as soon as
+    they are found.
 
     Examples
     --------
@@ -201,8 +202,8 @@ def count_between(
 ) -> int:
     """The number of pairs of `overlaps_between`; uses memory independent of that number.
 
-    The parameters are those of `overlaps_between`. More pairs than ``max_pairs`` raise LimitExceeded as soon as they are
-    found.
+    The parameters are those of `overlaps_between`, without ``order``. More pairs than ``max_pairs`` raise LimitExceeded as
+    soon as they are found.
 
     Examples
     --------
@@ -236,6 +237,7 @@ def batches(
     order: Order = "first",
     strategy: Strategy = "auto",
     threads: int = 1,
+    max_pairs: int | None = None,
     batch_size: int = 65536,
 ) -> Iterator[Pairs]:
     """The pairs of `overlaps` in batches; uses memory independent of their number.
@@ -247,6 +249,8 @@ def batches(
     ----------
     batch_size : int
         The maximum number of pairs in a batch.
+    max_pairs : int, optional
+        More pairs than this raise LimitExceeded; the batches until then have no more.
 
     The other parameters, and what is raised, are those of `overlaps`.
 
@@ -282,6 +286,7 @@ def batches_between(
     order: Order = "first",
     strategy: Strategy = "auto",
     threads: int = 1,
+    max_pairs: int | None = None,
     batch_size: int = 65536,
 ) -> Iterator[Pairs]:
     """The pairs of `overlaps_between` in batches, like `batches` for one set.

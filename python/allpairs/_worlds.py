@@ -206,7 +206,7 @@ def count_in_worlds(
 ) -> npt.NDArray[np.int64]:
     """The number of pairs of each world; uses memory independent of the pairs.
 
-    The parameters, and what is raised, are those of `overlaps_in_worlds`.
+    The parameters, and what is raised, are those of `overlaps_in_worlds`, without ``order``.
 
     Returns
     -------

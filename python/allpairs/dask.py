@@ -423,7 +423,7 @@ def count(
 ) -> int:
     """The number of pairs of `overlaps`, computed at once; no task holds pairs.
 
-    The parameters are those of `overlaps`.
+    The parameters are those of `overlaps`, without ``output``.
 
     Examples
     --------

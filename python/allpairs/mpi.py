@@ -157,7 +157,8 @@ def overlaps_between(
 ) -> IdPairs:
     """The pairs of a box of the first set and a box of the second whose first box is this rank's.
 
-    Parameters as in `allpairs.overlaps_between` and `overlaps`; both sets are numbered by themselves.
+    The sets are as in `allpairs.overlaps_between` and numbered by themselves; the other parameters are as in `overlaps`, a
+    tuple of two where they are of boxes.
     """
     search, sets = _prepared(two_sets, locals())
     return np.asarray(search.find(*sets))

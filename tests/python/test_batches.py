@@ -64,6 +64,27 @@ def test_what_the_search_raises_is_raised_to_the_reader_once():
     assert list(stream) == []
 
 
+@pytest.mark.parametrize("order", ["first", "second", "unordered"])
+def test_more_pairs_than_allowed_are_raised_in_place_of_the_rest(order, boxes):
+    others = random_boxes(90, seed=2)
+    for batches, pairs in (
+        (lambda limit: allpairs.batches(*boxes, order=order, batch_size=7, max_pairs=limit), allpairs.overlaps(*boxes, order=order)),
+        (
+            lambda limit: allpairs.batches_between(boxes, others, order=order, batch_size=7, max_pairs=limit),
+            allpairs.overlaps_between(boxes, others, order=order),
+        ),
+    ):
+        np.testing.assert_array_equal(np.vstack(list(batches(len(pairs)))), pairs)
+        found = [pairs[:0]]
+        with pytest.raises(allpairs.LimitExceeded) as caught:
+            for batch in batches(len(pairs) - 1):
+                found.append(batch)
+        assert caught.value.count == len(pairs)
+        received = np.vstack(found)
+        assert len(received) < len(pairs)
+        np.testing.assert_array_equal(received, pairs[: len(received)])
+
+
 def test_memory_does_not_grow_with_the_pairs():
     boxes = np.zeros((9000, 6), dtype=np.float32)  # 40 million pairs, 320 MB
     list(allpairs.batches(boxes[:4500]))
