@@ -43,7 +43,8 @@ constexpr const char* kProgramExamples = R"(Examples:
 
 See 'allpairs help COMMAND'. Exit status: 0 success, 1 --verify found a
 difference, 2 usage error, 3 a file cannot be read or written, 4 --fail-on
-found what it names.)";
+found what it names, 129, 130 or 143 a signal ended it, 141 nobody reads the
+output.)";
 
 /// One line on standard error, whatever the message holds: names of files are the user's, or a stranger's.
 void complain(std::string message) {

@@ -6,7 +6,7 @@
 
 namespace allpairs::app {
 
-/// What the program says to the shell when it ends. The manual page lists them.
+/// What the program says to the shell when it ends, unless a signal ends it. The manual page lists all.
 enum class ExitStatus : int {
   Success = 0,
   Difference = 1,    ///< --verify found that two strategies disagree.

@@ -64,6 +64,32 @@ TEST(HelpOfDetect, ShowsThatWhyTakesTwoModels) {
   EXPECT_NE(runProgram({"detect", "--help"}).out.find("\n  --why A B  "), std::string::npos);
 }
 
+/// The numbers in a part of a text: what the pattern's group holds wherever it matches behind `begin` and before `end`.
+std::set<int> statusesIn(const std::string& text, const std::string& begin, const std::string& end,
+                         const std::string& pattern) {
+  const std::size_t from = text.find(begin);
+  if (from == std::string::npos) return {};
+  const std::string part = text.substr(from + begin.size(), text.find(end, from + begin.size()) - from - begin.size());
+  const std::regex lines(pattern), number("[0-9]+");
+  std::set<int> statuses;
+  for (auto line = std::sregex_iterator(part.begin(), part.end(), lines); line != std::sregex_iterator(); ++line) {
+    const std::string numbers = (*line)[1].str();
+    for (auto each = std::sregex_iterator(numbers.begin(), numbers.end(), number); each != std::sregex_iterator();
+         ++each)
+      statuses.insert(std::stoi(each->str()));
+  }
+  return statuses;
+}
+
+TEST(Help, HasEveryExitStatusAndSoHasTheManual) {
+  const std::string described = readBytes(ALLPAIRS_SOURCE_DIR "/docs/command.md");
+  const std::set<int> statuses = statusesIn(described, "\n## Exit status", "\n## ", R"(\n\| ([0-9, ]+) \|)");
+  EXPECT_TRUE(statuses.contains(kWrongUsage));
+  const std::string manual = readBytes(ALLPAIRS_SOURCE_DIR "/docs/man/allpairs.1");
+  EXPECT_EQ(statusesIn(manual, "\n.SH EXIT STATUS", "\n.SH ", R"(\n\.TP\n\.BR? ([0-9", ]+)(?=\n))"), statuses);
+  EXPECT_EQ(statusesIn(runProgram({"--help"}).out, "Exit status:", "\n\n", R"([ \n]([0-9]+)(?=[ ,]))"), statuses);
+}
+
 TEST(Help, OfACommandIsItsOwn) {
   for (const char* command : {"detect", "generate", "bench"}) {
     const ProgramRun run = runProgram({"help", command});
