@@ -34,9 +34,10 @@ inline constexpr std::size_t kBatchSize = 65536;
 ///
 /// Geometry:  boxes are closed: sharing a face, an edge or a corner is an overlap. Empty boxes overlap nothing.
 /// Bad input: invalid options, such as an unknown instruction set, throw InvalidArgument.
-/// Cost:      up to 52 bytes per box, 70 in an ordered search of up to a million, and 8 bytes per pair, up to 25 while
-///            their buffer grows; twice with a parallel executor. On the calling thread a second search of the same
-///            size allocates nothing. Of the default memory that ordered search reserves 64 more, and seldom uses them.
+/// Cost:      up to 70 bytes per box and 8 per pair, up to 25 while their buffer grows, both twice with a parallel
+///            executor, and some 100 KB for each thread: what is asked of the memory, of which a part is seldom used. On
+///            the calling thread a second search of the same size allocates nothing. Of the default memory an ordered
+///            search of up to a million boxes reserves 64 bytes per box more, and seldom uses them.
 /// Threads:   one search at a time per object; parallel inside if the options have an executor.
 /// Memory:    after a search that threw, whether std::bad_alloc or an exception of a filter or visitor, the next search
 ///            behaves like that of a new object; the previous result is lost.

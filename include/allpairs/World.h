@@ -33,7 +33,7 @@ namespace allpairs {
 /// Bad input: a box with a NaN, or an id that is not in the world, throws InvalidBox, whose index() is the position in
 ///            the batch and whose message names the id; the batch then has no effect. Spans of different lengths, and a
 ///            BoxView with margins, throw InvalidArgument: here a margin is a property.
-/// Cost:      up to 200 bytes per box after reserve(), 300 without it, and 70 per pair, and some 200 KB for itself. In
+/// Cost:      up to 220 bytes per box after reserve(), 300 without it, and 70 per pair, and some 200 KB for itself. In
 ///            a steady state, on the calling thread, nothing is allocated. With world numbers, a step searches the
 ///            worlds in which a box has changed, small ones as a whole, and all of them if a box of every world has;
 ///            when boxes were added, removed or given another world, it also copies the ids of all boxes. The first
