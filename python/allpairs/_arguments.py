@@ -56,6 +56,7 @@ def strategy_of(strategy: str) -> _core.Strategy:
 
 
 def integer(name: str, value: int) -> int:
+    _refuse_masked(name, value)
     try:
         return operator.index(value.item() if isinstance(value, np.bool_) else value)  # as of Python's own bool
     except TypeError:
@@ -84,6 +85,7 @@ def bits(name: str, value: int) -> int:
 
 def number(name: str, value: float) -> float:
     """A single number; what is wrong with its value is for the engine to say."""
+    _refuse_masked(name, value)
     if not isinstance(value, (str, bytes, bytearray)):
         try:
             return float(value)
@@ -133,6 +135,7 @@ def paths_of(name: str, value: Any) -> list[str]:
 
 def flag(name: str, value: object) -> bool:
     """Whether a value is true, as Python has it; an array of several has no truth."""
+    _refuse_masked(name, value)
     try:
         return bool(value)
     except ValueError:
@@ -145,15 +148,10 @@ def is_one(value: object) -> bool:
 
 
 def array_of(name: str, value: npt.ArrayLike) -> npt.NDArray[Any]:
-    """The value as an array; NumPy would drop the mask of a masked one, and what it hides would count."""
+    """The value as an array."""
     if type(value) is np.ndarray:
         return value
-    try:
-        hides = _hides(value)
-    except RecursionError:  # a list that holds itself, say
-        raise InvalidArgument(f"{name} cannot be read as an array: it is nested too deeply") from None
-    if hides:
-        raise InvalidArgument(f"{name} has masked entries, which cannot be left out; pass rows without any, or filled() ones")
+    _refuse_masked(name, value)
     is_exchanged = hasattr(value, "__dlpack__") and not hasattr(value, "__array__")  # NumPy takes it for an object
     try:
         array: npt.NDArray[Any] = np.from_dlpack(value) if is_exchanged else np.asarray(value)
@@ -163,6 +161,16 @@ def array_of(name: str, value: npt.ArrayLike) -> npt.NDArray[Any]:
     except Exception as error:  # rows of several lengths, or what another library refuses: memory of a GPU, say
         reason = " ".join(str(error).split())
         raise InvalidArgument(f"{name} cannot be read as an array: {reason[:140]}") from error
+
+
+def _refuse_masked(name: str, value: object) -> None:
+    """NumPy would drop the mask, and what it hides would count."""
+    try:
+        hides = _hides(value)
+    except RecursionError:  # a list that holds itself, say
+        raise InvalidArgument(f"{name} cannot be read as an array: it is nested too deeply") from None
+    if hides:
+        raise InvalidArgument(f"{name} has masked entries, which cannot be left out; pass rows without any, or filled() ones")
 
 
 def _hides(value: object) -> bool:

@@ -58,14 +58,10 @@ def _properties(size: int, values: dict[str, Any]) -> _core.Properties:
         if values[name] is not None:
             getattr(properties, "set_" + name)(_arguments.labels(name, values[name], size))
     if values["margin"] is not None:
-        margins = _arguments.floats("margin", _spread(values["margin"], size))
-        properties.set_margin(_arguments.contiguous(_arguments.of_length("margin", margins, size), dtype=np.float64))
+        given = _arguments.floats("margin", values["margin"])
+        margins = np.broadcast_to(given, (size,)) if given.ndim == 0 else _arguments.of_length("margin", given, size)
+        properties.set_margin(_arguments.contiguous(margins, dtype=np.float64))
     return properties
-
-
-def _spread(value: npt.ArrayLike, size: int) -> npt.ArrayLike:
-    """One value for all boxes, or the array as it is."""
-    return np.broadcast_to(value, (size,), subok=True) if _arguments.is_one(value) else value
 
 
 def _columns(labels: npt.NDArray[np.uint32]) -> dict[str, npt.NDArray[Any]]:

@@ -364,6 +364,16 @@ def test_masked_entries_in_chunks_are_refused(name):
         allpairs.dask.overlaps(boxes, **{name: values}).compute()
 
 
+@pytest.mark.parametrize("name", ["margin", "group", "category", "mask"])
+@pytest.mark.parametrize("hidden", [np.ma.masked, np.ma.array(5, mask=True)])
+def test_a_masked_number_for_all_boxes_is_refused(name, hidden):
+    boxes = dask.array.from_array(np.array([[0, 0, 0, 2, 2, 2], [1, 1, 1, 3, 3, 3.0]]), chunks=(1, 6))
+    for function in (allpairs.dask.overlaps, allpairs.dask.count):
+        with pytest.raises(allpairs.InvalidArgument, match=f"^{name} has masked entries"):
+            function(boxes, **{name: hidden})
+    assert allpairs.dask.count(boxes, **{name: np.ma.array(5)}) == allpairs.count(boxes.compute(), **{name: 5})
+
+
 def test_files_that_are_no_arrays_are_named(tmp_path):
     good = tmp_path / "good.npy"
     boxes = boxes_of("uniform", np.float32)[:100]

@@ -131,7 +131,7 @@ MESH = {"triangles": [[0, 1, 2]], "vertex_count": 3}
         (lambda: WORLD.nearest([0, 0, 0], k=0), "k is 0; it is at least 1"),
         (lambda: allpairs.World(threads=-1), "threads is -1; it is at least 0"),
         (lambda: WORLD.add(BOXES, mask=2**40), "mask is 1099511627776; it is at most 4294967295"),
-        (lambda: WORLD.add(BOXES, margin="x"), "margin has dtype <U1"),
+        (lambda: WORLD.add(BOXES, margin="x"), "margin is 'x'; it takes numbers$"),
         (lambda: WORLD.first_hits([0, 0, 0], [1, 0, 0], "far"), "length is .far.; it takes numbers"),
         (lambda: allpairs.overlaps(BOXES, region=["a"] * 6), "region has dtype <U1"),
         (lambda: allpairs.MeshCandidates([[0, 1, 2]], 2**70), "vertex_count is 1180591620717411303424"),

@@ -16,6 +16,9 @@ def masked(values):
     return array
 
 
+HIDDEN = np.ma.array(3, mask=True)
+
+
 def world():
     world = allpairs.World()
     world.add(BOXES)
@@ -37,17 +40,35 @@ CALLS = {
     "upper": [lambda: allpairs.overlaps(BOXES[:, :3], masked(BOXES[:, 3:]))],
     "second set: lower": [lambda: allpairs.count_between(BOXES, masked(BOXES))],
     "starts: lower": [lambda: world().move_swept(range(4), masked(BOXES), BOXES)],
-    "margin": [lambda: allpairs.overlaps(BOXES, margin=masked(np.ones(4))), lambda: world().set_properties(range(4), margin=masked(np.ones(4)))],
+    "margin": [
+        lambda: allpairs.overlaps(BOXES, margin=masked(np.ones(4))),
+        lambda: allpairs.overlaps(BOXES, margin=np.ma.masked),
+        lambda: world().set_properties(range(4), margin=masked(np.ones(4))),
+        lambda: world().set_properties(range(4), margin=HIDDEN),
+        lambda: allpairs.World().add(BOXES, margin=np.ma.masked),
+    ],
     "group": [
         lambda: allpairs.overlaps(BOXES, group=masked(range(4))),
-        lambda: allpairs.overlaps(BOXES, group=np.ma.array(3, mask=True)),
+        lambda: allpairs.overlaps(BOXES, group=HIDDEN),
     ],
-    "category": [lambda: allpairs.overlaps(BOXES, category=np.ma.array(3, mask=True))],
-    "mask": [lambda: allpairs.World().add(BOXES, mask=masked(range(4)))],
-    "static": [lambda: allpairs.World().add(BOXES, static=masked([True] * 4))],
+    "category": [lambda: allpairs.overlaps(BOXES, category=HIDDEN)],
+    "mask": [lambda: allpairs.World().add(BOXES, mask=masked(range(4))), lambda: world().overlapping(BOXES, mask=HIDDEN)],
+    "static": [
+        lambda: allpairs.World().add(BOXES, static=masked([True] * 4)),
+        lambda: world().overlapping(BOXES, static=np.ma.array(True, mask=True)),
+    ],
+    "distance": [lambda: allpairs.overlaps(BOXES, distance=HIDDEN), lambda: allpairs.World(distance=np.ma.masked)],
+    "threads": [lambda: allpairs.overlaps(BOXES, threads=HIDDEN)],
+    "max_pairs": [lambda: allpairs.count(BOXES, max_pairs=HIDDEN)],
+    "batch_size": [lambda: allpairs.batches(BOXES, batch_size=HIDDEN)],
+    "k": [lambda: world().nearest(BOXES, HIDDEN)],
+    "world": [lambda: world().result(HIDDEN)],
     "ignore": [lambda: allpairs.overlaps(BOXES, ignore=masked([[0, 1], [1, 2]]))],
     "region": [lambda: allpairs.overlaps(BOXES, region=masked(range(6)))],
-    "ids": [lambda: world().remove(masked(range(4)))],
+    "ids": [
+        lambda: world().remove(masked(range(4))),
+        lambda: allpairs.overlaps_in_cell(BOXES, None, [0, 1, 2, HIDDEN], [[-np.inf] * 3, [np.inf] * 3]),
+    ],
     "origins": [lambda: world().first_hits(masked(BOXES[:, :3]), [1, 0, 0])],
     "length": [lambda: world().first_hits(BOXES[:, :3], [1, 0, 0], masked(np.ones(4)))],
     "points": [lambda: world().nearest(masked(BOXES[:, :3]))],
