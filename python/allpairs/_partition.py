@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _arguments, _core
-from ._errors import InvalidArgument
+from ._errors import InvalidArgument, InvalidBox
 from ._settings import IN_SPACE, Both, one_set, two_sets
 
 if TYPE_CHECKING:  # not every build has it
@@ -196,7 +196,7 @@ def _by_id(values: dict[str, Any]) -> dict[str, Any]:
     if values["margin"] is None or _arguments.is_one(values["margin"]):
         return values
     ids = _arguments.array_of("ids", _exact(values["ids"]))
-    if ids.ndim != 1 or ids.dtype.kind not in "iu" or (ids[1:] >= ids[:-1]).all():
+    if ids.ndim != 1 or ids.dtype.kind not in "iu" or (ids[1:] >= ids[:-1]).all() or (ids < 0).any():
         return values
     order = np.argsort(ids, kind="stable")
     given = {name: values[name] for name in ("lower", "upper", *_arguments.OF_EACH_BOX)} | {"ids": ids}
@@ -259,8 +259,13 @@ def overlaps_in_cell(
     array([[50, 60],
            [60, 70]], dtype=uint64)
     """
-    values = _by_id(locals())
-    boxes, options = one_set({**_IN_CELL, **values})
+    given = {**_IN_CELL, **locals()}
+    values = _by_id(given)
+    try:
+        boxes, options = one_set(values)
+    except InvalidBox:
+        one_set(given)  # raises it with the index that the box was given at
+        raise
     return np.asarray(_core.overlaps_in_cell(boxes, _ids_of(values["ids"], len(boxes)), _arguments.cell_of(cell), options))
 
 

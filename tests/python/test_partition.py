@@ -157,6 +157,24 @@ def test_ids_have_64_bits():
     ]
 
 
+def test_what_is_wrong_with_a_box_names_it_as_it_was_given_whatever_its_id():
+    lower, upper = np.zeros((3, 3)), np.ones((3, 3))
+    lower[0, 0] = np.nan
+    space, ids, margins = [[-np.inf] * 3, [np.inf] * 3], [70, 50, 60], [1.0, 2, 3]
+
+    def refused(message, lower=upper, ids=ids, **options):
+        with pytest.raises(allpairs.Error, match=message) as caught:
+            allpairs.overlaps_in_cell(lower, upper, ids, space, **options)
+        return caught.value
+
+    assert refused("^box 0: min x is not a number", lower, margin=margins).index == 0
+    assert refused("^box 0: min x is not a number", np.vstack([lower[:1], lower[:2]]), margin=margins).index == 0  # of two
+    assert refused("^box 1: its margin is NaN", margin=[1, np.nan, 3]).index == 1
+    for name in ("group", "category", "mask"):
+        assert refused(rf"^{name}\[0\] is -1; ", margin=margins, **{name: [-1, 0, 0]}).index == 0
+    refused(r"^ids\[1\] is -50; it is at least 0$", ids=np.array([70, -50, 60]), margin=margins)
+
+
 def test_margins_are_added_in_the_order_of_ids():
     rng = np.random.default_rng(7)
     n = 400
