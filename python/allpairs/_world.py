@@ -139,12 +139,13 @@ class World(WorldQueries):
             return
         # The ids of a new world are consecutive; those of empty boxes that go before the first step are free after it.
         bound = int(ids[-1]) + 1
-        self.add(np.tile([1.0, 0, 0, 0, 0, 0], (bound, 1)))
-        self.remove(np.setdiff1d(np.arange(bound, dtype=np.uint32), ids, assume_unique=True))
-        self.step()
-        self.move(ids, state["boxes"])
+        # Not by methods of a derived class, which may count calls or take other arguments.
+        World.add(self, np.tile([1.0, 0, 0, 0, 0, 0], (bound, 1)))
+        World.remove(self, np.setdiff1d(np.arange(bound, dtype=np.uint32), ids, assume_unique=True))
+        World.step(self)
+        World.move(self, ids, state["boxes"])
         # States of earlier versions have no worlds.
-        self.set_properties(ids, **{name: state[name] for name in (*_LABELS, "margin") if name in state})
+        World.set_properties(self, ids, **{name: state[name] for name in (*_LABELS, "margin") if name in state})
 
     def add(
         self,

@@ -378,6 +378,50 @@ def test_a_copy_keeps_what_others_have_added(copied):
     assert (twin.name is world.name) == (copied is copy.copy)
 
 
+class Logged(allpairs.World):
+    """All that changes it is of another form, and is written down."""
+
+    def __init__(self):
+        super().__init__()
+        self.calls = []
+
+    def add(self, label, *boxes):
+        self.calls.append(label)
+        return super().add(*boxes)
+
+    def move(self, label, *boxes):
+        self.calls.append(label)
+        super().move(*boxes)
+
+    def remove(self, label, ids):
+        self.calls.append(label)
+        super().remove(ids)
+
+    def set_properties(self, label, ids, **properties):
+        self.calls.append(label)
+        super().set_properties(ids, **properties)
+
+    def step(self, label):
+        self.calls.append(label)
+        return super().step()
+
+
+@pytest.mark.parametrize("copied", [copy.copy, copy.deepcopy, lambda world: pickle.loads(pickle.dumps(world))])
+def test_a_copy_calls_no_methods_of_a_class_derived_from_world(copied):
+    world = Logged()
+    world.add("three", np.tile([0.0, 0, 0, 1, 1, 1], (3, 1)))
+    world.remove("the first", [0])
+    world.move("the last", 2, [1.0, 1, 1, 2, 2, 2])
+    world.set_properties("both", [1, 2], margin=1)
+    world.step("once")
+    calls = list(world.calls)
+    twin = copied(world)
+    assert world.calls == twin.calls == calls
+    assert twin.ids().tolist() == [1, 2] and twin.properties([1, 2])["margin"].tolist() == [1, 1]
+    np.testing.assert_array_equal(twin.boxes([1, 2]), world.boxes([1, 2]))
+    assert twin.step("again").pairs.tolist() == [[1, 2]]
+
+
 def test_a_copy_while_others_change_the_world_is_of_one_moment():
     world = allpairs.World()
     fixed = world.add(np.tile([0.0, 0, 0, 1, 1, 1], (50, 1)))
