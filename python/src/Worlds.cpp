@@ -3,6 +3,8 @@
 
 #include <pybind11/pybind11.h>
 
+#include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <utility>
 
@@ -46,16 +48,20 @@ py::tuple toTuple(WorldPairs found) {
   return py::make_tuple(toPython(std::move(found.pairs)), arrayOf(std::move(found.begin)));
 }
 
+std::size_t boxesOf(const Worlds& worlds, const Boxes* shared) {
+  return worlds.boxes().size() + (shared == nullptr ? 0 : shared->set().size());
+}
+
 py::tuple findInWorlds(const Division& division, const Boxes* shared, Options& options) {
   const Worlds& worlds = division.worlds();
-  return toTuple(options.run(worlds.boxes().size(), [&](const OverlapOptions& settings) {
+  return toTuple(options.run(boxesOf(worlds, shared), [&](const OverlapOptions& settings) {
     return shared == nullptr ? overlapsInWorlds(worlds, settings) : overlapsInWorlds(worlds, shared->set(), settings);
   }));
 }
 
 std::unique_ptr<OffsetArray> countInWorlds(const Division& division, const Boxes* shared, Options& options) {
   const Worlds& worlds = division.worlds();
-  return arrayOf(options.run(worlds.boxes().size(), [&](const OverlapOptions& settings) {
+  return arrayOf(options.run(boxesOf(worlds, shared), [&](const OverlapOptions& settings) {
     return shared == nullptr ? countOverlapsInWorlds(worlds, settings)
                              : countOverlapsInWorlds(worlds, shared->set(), settings);
   }));

@@ -289,3 +289,25 @@ print("usable")
 """
     with run(program) as process:
         assert process.communicate()[0] == "usable\n"
+
+
+def test_handlers_run_during_a_search_of_few_boxes_beside_many_that_worlds_share():
+    program = """
+few, many = heap[:200], heap[:100_000]
+def searches():
+    yield allpairs.count_in_worlds(few, offsets=[0, 200], shared=many).tolist(), [20_000_000]
+    yield len(allpairs.overlaps_in_worlds(few, offsets=[0, 200], shared=many)[0]), 20_000_000
+seen = []
+signal.signal(signal.SIGALRM, lambda *_: seen.append(1))
+found = searches()
+for _ in range(2):
+    seen.clear()
+    signal.setitimer(signal.ITIMER_REAL, 0.001, 0.001)
+    result, expected = next(found)
+    signal.setitimer(signal.ITIMER_REAL, 0)
+    assert result == expected
+    assert len(seen) > 10, len(seen)  # before and after the search it is three
+print("usable")
+"""
+    with run(program) as process:
+        assert process.communicate()[0] == "usable\n"
