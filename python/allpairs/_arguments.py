@@ -178,7 +178,10 @@ def _hides(value: object) -> bool:
     if isinstance(value, (list, tuple)):
         of_numbers = bool(value) and isinstance(value[0], (int, float))  # a row, of which there may be many
         return not of_numbers and any(_hides(row) for row in value if isinstance(row, (list, tuple, np.ma.MaskedArray)))
-    return isinstance(value, np.ma.MaskedArray) and bool(np.any(value.mask))
+    if not isinstance(value, np.ma.MaskedArray):
+        return False
+    mask = value.mask
+    return bool(mask.any()) if mask.dtype.names is None else any(mask.tobytes())  # of records, one for each field
 
 
 def floats(name: str, value: npt.ArrayLike) -> npt.NDArray[Any]:
@@ -189,13 +192,13 @@ def floats(name: str, value: npt.ArrayLike) -> npt.NDArray[Any]:
         return array.astype(native, copy=False)
     if native == np.float16:
         return array.astype(np.float32)
+    if array.dtype.names is not None:
+        rows = "numpy.lib.recfunctions.structured_to_unstructured()"
+        raise InvalidArgument(f"{name} has fields, {', '.join(array.dtype.names)}; {rows} makes rows of numbers of them")
     if array.size == 0 and array.dtype.kind in "OV":
         return array.astype(np.float64)
     if array.dtype.kind in "OSU" and array.ndim == 0:  # of what is no array, such as None, a path or a generator
         raise InvalidArgument(f"{name} is {shown(value)}; it takes numbers")
-    if array.dtype.names is not None:
-        rows = "numpy.lib.recfunctions.structured_to_unstructured()"
-        raise InvalidArgument(f"{name} has fields, {', '.join(array.dtype.names)}; {rows} makes rows of numbers of them")
     if array.dtype.kind not in "iub":
         raise InvalidArgument(f"{name} has dtype {array.dtype}; it takes numbers that float32 or float64 holds")
     if array.dtype.itemsize == 8 and (array > _EXACT_INTEGERS).any() | (array < -_EXACT_INTEGERS).any():
@@ -344,7 +347,7 @@ def of_length(name: str, values: npt.NDArray[Any], length: int) -> npt.NDArray[A
 def _uint32(name: str, value: npt.ArrayLike) -> npt.NDArray[np.uint32]:
     """Integers as uint32, the same memory where they are."""
     array = array_of(name, value)
-    if array.size == 0:
+    if array.size == 0 and array.dtype.names is None:
         array = array.astype(np.uint32)
     if array.dtype.kind not in "iub":
         raise InvalidArgument(f"{name} has dtype {array.dtype}; it takes integers")
@@ -362,7 +365,7 @@ def _uint32(name: str, value: npt.ArrayLike) -> npt.NDArray[np.uint32]:
 
 def uint64(name: str, array: npt.NDArray[Any]) -> npt.NDArray[np.uint64]:
     """A row of integers as uint64, the same memory where they are of 64 bits."""
-    if array.size == 0:
+    if array.size == 0 and array.dtype.names is None:
         array = array.astype(np.uint64)
     if array.dtype.kind not in "iu":
         raise InvalidArgument(f"{name} has dtype {array.dtype}; it takes integers")

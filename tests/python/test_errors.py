@@ -47,6 +47,19 @@ def test_fields_are_told_how_to_become_rows():
     assert allpairs.count(structured_to_unstructured(table)) == 3
 
 
+@pytest.mark.parametrize("count", [0, 3])
+def test_records_are_no_integers(count):
+    records, boxes = np.zeros(count, "i4,i4"), BOXES[:count]
+    for name, call in {
+        "group": lambda: allpairs.overlaps(boxes, group=records),
+        "ignore": lambda: allpairs.overlaps(boxes, ignore=records),
+        "ids": lambda: WORLD.remove(records),
+        "offsets": lambda: allpairs.overlaps_in_worlds(boxes, offsets=records),
+    }.items():
+        with pytest.raises(allpairs.InvalidArgument, match=f"^{name} has dtype .*; it takes integers$"):
+            call()
+
+
 def test_a_margin_that_is_none_names_its_box():
     with pytest.raises(allpairs.InvalidBox) as caught:
         allpairs.overlaps(BOXES, margin=[0, 1, np.nan, 0])

@@ -83,6 +83,25 @@ def test_masked_entries_are_refused_by_name(name, call):
         call()
 
 
+NESTED = np.dtype([("min", np.float32, 3), ("max", [("x", "f4"), ("y", "f4"), ("z", "f4")])])
+
+
+@pytest.mark.parametrize("dtype", ["f4,f4", NESTED])
+@pytest.mark.parametrize("count", [0, 3])
+def test_masked_records_are_told_how_to_become_rows_or_that_they_hide_something(dtype, count):
+    records = np.ma.zeros(count, dtype)
+    name = records.dtype.names[-1]
+    for search in (allpairs.overlaps, allpairs.World().add):
+        for clear in (records, np.ma.array(records, mask=False)):
+            with pytest.raises(allpairs.InvalidArgument, match=f"^lower has fields, .*{name}; .*structured_to_unstructured"):
+                search(clear)
+    if count:
+        records[name][1] = np.ma.masked
+        for hidden in (records, list(records), records[1]):
+            with pytest.raises(allpairs.InvalidArgument, match="^lower has masked entries"):
+                allpairs.overlaps(hidden)
+
+
 def test_a_masked_array_that_hides_nothing_is_an_array():
     np.testing.assert_array_equal(allpairs.overlaps(np.ma.array(BOXES)), allpairs.overlaps(BOXES))
     np.testing.assert_array_equal(allpairs.overlaps(np.ma.array(BOXES, mask=False)), allpairs.overlaps(BOXES))
