@@ -118,7 +118,15 @@ def _read_planned(path: str, shape: tuple[int, ...]) -> Array:
     return array
 
 
-def _files_of(value: Any) -> Optional[list[str]]:
+def full_path(name: str, value: Any) -> str:
+    """The path that an argument names, for processes in other folders."""
+    path = _arguments.path_of(name, value)
+    if not path:  # the working folder, if it were made absolute
+        raise InvalidArgument(f"{name} is {_arguments.shown(value)}, which no file can be called")
+    return os.path.abspath(path)
+
+
+def _files_of(name: str, value: Any) -> Optional[list[str]]:
     """The paths that an argument names; None if it is something else."""
     if isinstance(value, (str, bytes, os.PathLike)):
         value = [value]
@@ -127,7 +135,7 @@ def _files_of(value: Any) -> Optional[list[str]]:
     paths = value if isinstance(value, (list, tuple)) else list(value)
     if not all(isinstance(path, (str, bytes, os.PathLike)) for path in paths):
         return None
-    return [os.path.abspath(os.fsdecode(path)) for path in paths]
+    return [full_path(name, path) for path in paths]
 
 
 def _check_chunks(argument: str, array: Any) -> None:
@@ -148,7 +156,7 @@ def _boxes_of(argument: str, boxes: Any) -> tuple[list[Any], list[int], list[str
         _check_chunks(argument, boxes)
         rows = boxes.rechunk({1: 6})
         return list(rows.to_delayed().ravel()), [int(size) for size in rows.chunks[0]], []
-    names = _files_of(boxes)
+    names = _files_of(argument, boxes)
     if names is None:
         raise TypeError(f"{argument} is {type(boxes).__name__}; it takes a dask array, or .npy files")
     if not names:
@@ -228,7 +236,7 @@ def _of_files(name: str, names: list[str], begins: Sequence[int]) -> list[Any]:
 def _of_each_part(name: str, value: Any, begins: Sequence[int], prefix: str) -> list[Any]:
     """The value for the boxes of each part: what a task reads, or the number that all have."""
     called = prefix + name
-    names = _files_of(value)
+    names = _files_of(called, value)
     if names is not None:
         return _of_files(name, names, begins)
     if _arguments.is_one(value):

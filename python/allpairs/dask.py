@@ -32,7 +32,7 @@ from ._partition import (
     overlaps_between_in_cell,
     overlaps_in_cell,
 )
-from ._parts import Array, BoxParts, Place, Values, at, box_parts, file_error, reason
+from ._parts import Array, BoxParts, Place, Values, at, box_parts, file_error, full_path, reason
 
 __all__ = ["count", "overlaps"]
 
@@ -222,10 +222,9 @@ class _Tasks:
         return compute(Delayed(self.name, self.graph()))[0]
 
 
-def _written(tasks: _Tasks, merged: list[Hashable], output: PathLike) -> int:
+def _written(tasks: _Tasks, merged: list[Hashable], folder: Path) -> int:
     """Computes the parts of a result into files of a folder, and returns the number of pairs. The files get their names
     when all are complete: a failure before leaves what was there."""
-    folder = Path(os.path.abspath(_arguments.path_of("output", output)))
     names = _names_in(folder, len(merged))
     call = uuid4().hex
     try:
@@ -400,12 +399,13 @@ def overlaps(
            [1, 2]], dtype=uint32)
     """
     values = locals()
+    folder = None if output is None else Path(full_path("output", output))
     tasks = _Tasks("overlaps")
     settings, sets, planned = _planned(tasks, values)
     dtype = "uint32" if max(sum(each.sizes) for each in sets) <= 2**32 else "uint64"
     merged = _merged(tasks, planned, settings, (sets[0].begins, dtype))
-    if output is not None:
-        return _written(tasks, merged, output)
+    if folder is not None:
+        return _written(tasks, merged, folder)
     return DaskArray(tasks.graph(), tasks.name, ((np.nan,) * len(merged), (2,)), dtype=dtype)
 
 

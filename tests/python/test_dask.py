@@ -413,6 +413,22 @@ def test_a_folder_that_cannot_be_written_is_named(tmp_path):
         allpairs.dask.overlaps(boxes, tmp_path / "pairs")
 
 
+@pytest.mark.parametrize("name", ["", b"", "a\0b", "\ud800"])
+def test_a_name_that_no_file_can_have_is_refused(tmp_path, monkeypatch, name):
+    monkeypatch.chdir(tmp_path)
+    boxes = dask.array.zeros((4, 6), chunks=(2, 6))
+    for argument, call in {
+        "output": lambda: allpairs.dask.overlaps(boxes, name),
+        "boxes": lambda: allpairs.dask.count(name),
+        "second": lambda: allpairs.dask.count(boxes, second=[name]),
+        "margin": lambda: allpairs.dask.count(boxes, margin=name),
+        "second set: group": lambda: allpairs.dask.count(boxes, second=boxes, group=(None, [name])),
+    }.items():
+        with pytest.raises(allpairs.InvalidArgument, match=rf"^{argument} is b?'.*', which no file can be called$"):
+            call()
+    assert list(tmp_path.iterdir()) == []
+
+
 def test_a_folder_holds_the_parts_of_one_result(tmp_path):
     boxes = boxes_of("uniform", np.float32)
     folder = tmp_path / "pairs"
