@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import os
+import re
 from typing import Any
 
 
@@ -58,3 +59,15 @@ class FileError(Error, OSError):
 
     def __reduce__(self) -> tuple[type[FileError], tuple[Any, ...]]:
         return type(self), (str(self), self.path, self.line, self.column, self.errno)
+
+
+def shown_path(path: str) -> str:
+    """A path as messages show it: control characters, and bytes that are no UTF-8, as \\xNN."""
+    text = os.fsencode(path).decode("utf-8", "backslashreplace")
+    escaped = lambda found: "".join(f"\\x{byte:02x}" for byte in found[0].encode())
+    return re.sub("[\0-\x1f\x7f-\x9f]", escaped, text)
+
+
+def file_error(path: str, problem: object, cause: Exception | None = None) -> FileError:
+    """An error of a file; of the system, if it is the cause."""
+    return FileError(f"{shown_path(path)}: {problem}", path, 0, 0, getattr(cause, "errno", None))

@@ -15,7 +15,7 @@ from dask.array.core import Array as DaskArray
 from dask.delayed import delayed
 
 from . import _arguments
-from ._errors import Error, FileError, InvalidArgument, InvalidBox
+from ._errors import Error, FileError, InvalidArgument, InvalidBox, file_error, shown_path
 
 Array = npt.NDArray[Any]
 
@@ -31,14 +31,9 @@ class Place(NamedTuple):
     is_file: bool = False
 
 
-def file_error(path: str, problem: object, cause: Exception | None = None) -> FileError:
-    """An error of a file; of the system, if it is the cause."""
-    return FileError(f"{path}: {problem}", path, 0, 0, getattr(cause, "errno", None))
-
-
 def reason(problem: Exception) -> str:
     """Why the system refuses something, without the name of the file."""
-    return getattr(problem, "strerror", None) or str(problem)
+    return getattr(problem, "strerror", None) or " ".join(str(problem).split())
 
 
 @contextmanager
@@ -227,7 +222,7 @@ def _of_files(name: str, names: list[str], begins: Sequence[int]) -> list[Any]:
             _check_type(name, name, array.shape, array.dtype)
     sizes = [len(array) for array in arrays]
     if sum(sizes) != begins[-1]:
-        problem = f"{', '.join(names)}: {sum(sizes)} numbers, a {name} for each of {begins[-1]} boxes"
+        problem = f"{', '.join(map(shown_path, names))}: {sum(sizes)} numbers, a {name} for each of {begins[-1]} boxes"
         raise FileError(problem, names[0], 0, 0)
     read = delayed(_read_range)
     return [read(name, _pieces(names, sizes, begin, end)) for begin, end in zip(begins, begins[1:])]

@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _arguments
-from ._errors import FileError
+from ._errors import file_error
 from ._search import Pairs
 
 if TYPE_CHECKING:
@@ -153,7 +153,7 @@ def _search_roots_of(search_roots: Iterable[Path]) -> list[str]:
     roots = _arguments.paths_of("search_roots", search_roots)
     for root in roots:
         if not os.path.isdir(root):
-            raise FileError(f"{root}: is not a folder; search_roots takes folders", root, 0, 0)
+            raise file_error(root, "is not a folder; search_roots takes folders")
     return roots
 
 
@@ -249,7 +249,7 @@ def detect(
         recursive=recursive,
     )
     if not len(scene) and any(remark.is_partial for remark in scene.remarks):
-        name = os.fsdecode(path)
-        raise FileError(f"{name}: no model of it can be placed or read; load(..., partial=True).remarks says why", name, 0, 0)
+        problem = "no model of it can be placed or read; load(..., partial=True).remarks says why"
+        raise file_error(os.fsdecode(path), problem)
     pairs = scene.detect(distance=distance, region=region, strategy=strategy, threads=threads, verify=verify)
     return Detection(scene, pairs)

@@ -25,6 +25,7 @@ from dask.highlevelgraph import HighLevelGraph
 
 from . import _arguments
 from . import count as count_in_memory
+from ._errors import file_error
 from ._partition import (
     Partition,
     count_between_in_cell,
@@ -32,7 +33,7 @@ from ._partition import (
     overlaps_between_in_cell,
     overlaps_in_cell,
 )
-from ._parts import Array, BoxParts, Place, Values, at, box_parts, file_error, full_path, reason
+from ._parts import Array, BoxParts, Place, Values, at, box_parts, full_path, reason
 
 __all__ = ["count", "overlaps"]
 

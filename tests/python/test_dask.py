@@ -402,6 +402,28 @@ def test_files_that_are_no_arrays_are_named(tmp_path):
         allpairs.dask.count([good, tmp_path / "large.npy"])
 
 
+def test_errors_of_files_are_one_line_whatever_their_names(tmp_path):
+    boxes = dask.array.zeros((4, 6), chunks=(2, 6))
+    path = bytes(tmp_path) + b"/a\n\x1b\xe9.npy"
+    with open(path, "wb") as file:
+        np.save(file, np.zeros(5))
+    shown = f"{tmp_path}/a\\x0a\\x1b\\xe9.npy"
+    for call, message in (
+        (lambda: allpairs.dask.count(path), "boxes has shape (5,); it takes (n, 6)"),
+        (lambda: allpairs.dask.count(boxes, margin=path), "5 numbers, a margin for each of 4 boxes"),
+        (lambda: allpairs.dask.overlaps(boxes, path), "cannot be made: File exists"),
+    ):
+        with pytest.raises(allpairs.FileError) as caught:
+            call()
+        assert str(caught.value) == f"{shown}: {message}"
+        assert caught.value.path == os.fsdecode(path)
+    header = np.lib.format.magic(2, 0) + (2**20).to_bytes(4, "little") + b" " * 2**20  # of which NumPy says two lines
+    (tmp_path / "long.npy").write_bytes(header)
+    with pytest.raises(allpairs.FileError, match="^/.*/long.npy: cannot be read as .npy: ") as caught:
+        allpairs.dask.count(tmp_path / "long.npy")
+    assert "\n" not in str(caught.value)
+
+
 def test_a_folder_that_cannot_be_written_is_named(tmp_path):
     boxes = dask.array.zeros((4, 6), chunks=(2, 6))
     (tmp_path / "file").write_text("")

@@ -236,6 +236,26 @@ def test_names_and_errors_of_files_that_are_no_utf8_show_their_bytes(tmp_path):
         allpairs.load(bytes(tmp_path) + b"/missing\xff.csv")
 
 
+UGLY = b"a\n\x1b[31m\x7f\xc2\x85\xe9\xc3\xa9\\"
+SHOWN = "a\\x0a\\x1b[31m\\x7f\\xc2\\x85\\xe9é\\"
+
+
+def test_errors_of_files_show_control_characters_and_bytes_of_names_on_one_line(tmp_path):
+    folder = bytes(tmp_path) + b"/" + UGLY
+    os.mkdir(folder)
+    with open(folder + b"/none.ply", "w") as file:
+        file.write("x")
+    for call in (
+        lambda: allpairs.load(folder + b"/none"),
+        lambda: allpairs.load(SCENE, search_roots=[folder + b"/none"]),
+        lambda: allpairs.detect(folder, partial=True),
+    ):
+        with pytest.raises(allpairs.FileError) as caught:
+            call()
+        assert str(caught.value).startswith(f"{tmp_path}/{SHOWN}")
+        assert os.fsencode(caught.value.path).startswith(folder)
+
+
 def test_a_scene_of_which_nothing_is_left_is_an_error(tmp_path):
     scene = tmp_path / "none.scn"
     scene.write_text(
