@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -16,6 +16,15 @@ from ._search import Pairs
 
 #: Where each world's pairs, or boxes, begin: one more than there are worlds.
 Offsets = npt.NDArray[np.int64]
+
+
+class _Division(NamedTuple):
+    """How boxes are divided among worlds."""
+
+    begin: npt.NDArray[np.uint64]
+    """Where each world begins, and the last one ends."""
+    size: int | None
+    """The number of boxes of each world, where they all have as many."""
 
 
 def _equal_offsets(shape: tuple[int, ...]) -> npt.NDArray[np.uint64]:
@@ -32,12 +41,13 @@ def _given_offsets(value: npt.ArrayLike) -> npt.NDArray[np.uint64]:
 
 def _divided(
     lower: npt.ArrayLike, upper: npt.ArrayLike | None, offsets: npt.ArrayLike | None
-) -> tuple[npt.NDArray[Any], npt.NDArray[Any] | None, npt.NDArray[np.uint64]]:
-    """Boxes as tables, and where each world begins."""
+) -> tuple[npt.NDArray[Any], npt.NDArray[Any] | None, _Division]:
+    """Boxes as tables, and how they are divided among worlds."""
     low = _arguments.array_of("lower", lower)
     high = None if upper is None else _arguments.array_of("upper", upper)
     if offsets is not None:
-        return low, high, _given_offsets(offsets)
+        begin = _given_offsets(offsets)
+        return low, high, _Division(begin, _equal_size(begin))
     columns = (6, 4) if high is None else (3, 2)
     for name, array in (("lower", low), ("upper", high)):
         if array is not None and (array.ndim != 3 or array.shape[2] not in columns):
@@ -46,7 +56,8 @@ def _divided(
     if high is not None and low.shape != high.shape:
         raise InvalidArgument(f"lower has shape {low.shape} and upper {high.shape}")
     width = low.shape[2]
-    return low.reshape(-1, width), None if high is None else high.reshape(-1, width), _equal_offsets(low.shape)
+    tables = low.reshape(-1, width), None if high is None else high.reshape(-1, width)
+    return *tables, _Division(_equal_offsets(low.shape), low.shape[1])
 
 
 def _shared(value: BoxesLike, depth: Callable[[], float]) -> _arguments.BoxSet:
@@ -70,22 +81,22 @@ def _equal_size(begin: npt.NDArray[np.uint64]) -> int | None:
     return int(sizes[0]) if len(sizes) and (sizes == sizes[0]).all() else None
 
 
-def _labels(name: str, value: npt.ArrayLike, boxes: int, begin: npt.NDArray[np.uint64]) -> npt.NDArray[np.uint32]:
+def _labels(name: str, value: npt.ArrayLike, boxes: int, worlds: _Division) -> npt.NDArray[np.uint32]:
     """A filter's array: for each box of all worlds, or, if they are of equal size, of one."""
     if _arguments.is_one(value):
         return _arguments.labels(name, value, boxes)
-    array = _flat(name, _arguments.array_of(name, value), begin)
-    one = _equal_size(begin)
-    return _arguments.labels(name, array, one if array.size == one else boxes)
+    array = _flat(name, _arguments.array_of(name, value), worlds.begin)
+    one = worlds.size
+    return _arguments.labels(name, array, one if array.size == one else boxes)[:boxes]  # none, if there is no world
 
 
-def _margins(value: npt.ArrayLike | None, boxes: int, begin: npt.NDArray[np.uint64]) -> npt.ArrayLike | None:
+def _margins(value: npt.ArrayLike | None, boxes: int, worlds: _Division) -> npt.ArrayLike | None:
     """A margin for all boxes, or for each box of all worlds; those of one world, if they are of equal size, are repeated."""
     if value is None or _arguments.is_one(value):
         return value
-    array = _flat("margin", _arguments.array_of("margin", value), begin)
-    worlds = len(begin) - 1
-    return np.tile(array, worlds) if array.size == _equal_size(begin) and array.size * worlds == boxes else array
+    array = _flat("margin", _arguments.array_of("margin", value), worlds.begin)
+    count = len(worlds.begin) - 1
+    return np.tile(array, count) if array.size == worlds.size and array.size * count == boxes else array
 
 
 def _in_world(problem: InvalidBox, size: int | None) -> InvalidBox:
@@ -99,24 +110,27 @@ def _in_world(problem: InvalidBox, size: int | None) -> InvalidBox:
 
 def _prepared(values: dict[str, Any]) -> tuple[_core.Worlds, _core.Boxes | None, _core.Options]:
     """The worlds, the boxes that they share, if any, and the settings of a search, from the arguments of a function."""
-    low, high, begin = _divided(values["lower"], values["upper"], values["offsets"])
-    margin = _margins(values["margin"], low.shape[0] if low.ndim else 0, begin)
+    low, high, worlds = _divided(values["lower"], values["upper"], values["offsets"])
+    margin = _margins(values["margin"], low.shape[0] if low.ndim else 0, worlds)
     depth = lambda: _arguments.depth_of(values["distance"], [margin])
     try:
         boxes = _arguments.box_set(low, high, margin, depth, single=True)
     except InvalidBox as problem:
-        raise (_in_world(problem, _equal_size(begin)) if values["offsets"] is None else problem) from None
+        raise (_in_world(problem, worlds.size) if values["offsets"] is None else problem) from None
     others = None if values["shared"] is None else _shared(values["shared"], depth)
     names = ("the boxes of the worlds", "the shared ones")
     options = _settings.options_of(values, boxes.axes if others is None else _settings.common_axes(boxes, others, names))
     size = len(boxes.boxes)
-    _settings.set_filter(options, _core.Side.FIRST, values, lambda name, value: _labels(name, value, size, begin))
+    _settings.set_filter(options, _core.Side.FIRST, values, lambda name, value: _labels(name, value, size, worlds))
+    ignore = values["ignore"]
+    if ignore is not None and len(worlds.begin) == 1 and worlds.size:  # of a world, but there is none
+        ignore = _arguments.pairs_of_boxes("ignore", ignore, worlds.size, worlds.size if others is None else len(others.boxes))[:0]
     ignored = np.empty((0, 2), dtype=np.uint32)
     if others is not None:
-        _settings.set_ignored(options, values["ignore"], int(np.diff(begin).max(initial=0)), len(others.boxes))
-    elif values["ignore"] is not None:
-        ignored = _arguments.index_rows("ignore", values["ignore"], 2)
-    return _core.Worlds(boxes.boxes, begin, ignored), None if others is None else others.boxes, options
+        _settings.set_ignored(options, ignore, int(np.diff(worlds.begin).max(initial=0)), len(others.boxes))
+    elif ignore is not None:
+        ignored = _arguments.index_rows("ignore", ignore, 2)
+    return _core.Worlds(boxes.boxes, worlds.begin, ignored), None if others is None else others.boxes, options
 
 
 def overlaps_in_worlds(

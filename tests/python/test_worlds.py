@@ -96,6 +96,34 @@ def test_a_filter_of_one_world_holds_for_all_of_equal_size():
     assert_worlds(overlaps_in_worlds(low, high, group=every, ignore=ignore), expected)
 
 
+@pytest.mark.parametrize("worlds", [0, 1, 2])
+@pytest.mark.parametrize("axes", [3, 2])
+def test_what_is_given_of_one_world_holds_for_any_number_of_worlds(worlds, axes):
+    one = np.hstack([np.zeros((5, axes)), np.ones((5, axes))])
+    boxes, ground, numbers = np.tile(one, (worlds, 1, 1)), one[:3], np.arange(5)
+    for name, value in {
+        "group": numbers % 2,
+        "category": numbers,
+        "mask": numbers,
+        "margin": numbers - 2.5,
+        "ignore": [[0, 1], [4, 2]],
+    }.items():
+        pairs = allpairs.overlaps(one, **{name: value})
+        assert 0 < len(pairs) < 10
+        assert_worlds(overlaps_in_worlds(boxes, **{name: value}), [pairs] * worlds)
+        pairs = allpairs.overlaps_between(one, ground, **{name: value if name == "ignore" else (value, None)})
+        assert_worlds(overlaps_in_worlds(boxes, shared=ground, **{name: value}), [pairs] * worlds)
+    for shared in (None, ground):
+        for wrong, message in (
+            ({"group": numbers[:4]}, "^group has shape"),
+            ({"group": numbers - 1}, r"^group\[0\] is -1"),
+            ({"margin": np.ones(4)}, "^margin has shape"),
+            ({"ignore": [[0, 5]]}, r"\(0, 5\)"),
+        ):
+            with pytest.raises(allpairs.Error, match=message):
+                overlaps_in_worlds(boxes, shared=shared, **wrong)
+
+
 def test_shared_boxes_are_in_every_world():
     lower, upper, offsets = scene()
     shared = np.hstack(random_boxes(9, seed=7))
