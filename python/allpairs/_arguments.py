@@ -6,6 +6,8 @@ from __future__ import annotations
 import operator
 import os
 from collections.abc import Callable, Iterable, Sequence
+from decimal import Decimal
+from numbers import Real
 from typing import Any, Literal, NamedTuple, TypeVar, Union, cast
 
 import numpy as np
@@ -184,9 +186,20 @@ def _hides(value: object) -> bool:
     return bool(mask.any()) if mask.dtype.names is None else any(mask.tobytes())  # of records, one for each field
 
 
+def _has_large_integers(array: npt.NDArray[Any]) -> bool:
+    """Whether there are integers beyond those that float64 holds all of; NumPy makes objects of those beyond 64 bits."""
+    if array.dtype.kind == "O":
+        return any(isinstance(entry, int) and abs(entry) > _EXACT_INTEGERS for entry in array.flat)
+    is_wide = array.dtype.kind in "iu" and array.dtype.itemsize == 8
+    return is_wide and bool((array > _EXACT_INTEGERS).any() or (array < -_EXACT_INTEGERS).any())
+
+
 def floats(name: str, value: npt.ArrayLike) -> npt.NDArray[Any]:
-    """An array of float32 or float64 in this machine's byte order; other numbers become one of them, exactly."""
+    """An array of float32 or float64 in this machine's byte order; other numbers become one of them, exactly. A single
+    number is one that number() takes."""
     array = array_of(name, value)
+    if array.ndim == 0 and isinstance(array.item(), (Real, Decimal)):
+        return np.array(number(name, array.item()))
     native = array.dtype.newbyteorder("=")
     if native == np.float32 or native == np.float64:
         return array.astype(native, copy=False)
@@ -199,10 +212,10 @@ def floats(name: str, value: npt.ArrayLike) -> npt.NDArray[Any]:
         return array.astype(np.float64)
     if array.dtype.kind in "OSU" and array.ndim == 0:  # of what is no array, such as None, a path or a generator
         raise InvalidArgument(f"{name} is {shown(value)}; it takes numbers")
+    if _has_large_integers(array):
+        raise InvalidArgument(f"{name} has integers beyond 2**53, which float64 does not hold")
     if array.dtype.kind not in "iub":
         raise InvalidArgument(f"{name} has dtype {array.dtype}; it takes numbers that float32 or float64 holds")
-    if array.dtype.itemsize == 8 and (array > _EXACT_INTEGERS).any() | (array < -_EXACT_INTEGERS).any():
-        raise InvalidArgument(f"{name} has integers beyond 2**53, which float64 does not hold")
     return array.astype(np.float64)
 
 
@@ -311,7 +324,8 @@ def box_set(
     low, high = _corners(lower, upper, prefix, axes_taken, single)
     axes = low.shape[1]
     if axes == 2:
-        flat = np.full((len(low), 1), depth_of_plane(), low.dtype)
+        with np.errstate(over="ignore"):  # more than float32 holds is infinite
+            flat = np.full((len(low), 1), depth_of_plane(), low.dtype)
         low, high = np.hstack([low, -flat]), np.hstack([high, flat])
     return BoxSet(with_margins(_core.Boxes(low, high, prefix), margin, prefix), axes)
 

@@ -235,7 +235,7 @@ def _of_each_part(name: str, value: Any, begins: Sequence[int], prefix: str) -> 
     if names is not None:
         return _of_files(name, names, begins)
     if _arguments.is_one(value):
-        single = _arguments.array_of(called, value).reshape(1)
+        single = (_arguments.floats if name == "margin" else _arguments.array_of)(called, value).reshape(1)
         _check_type(name, called, single.shape, single.dtype)
         return [_checked(name, single, called, 0)[0].item()] * (len(begins) - 1)
     array: Any = value if isinstance(value, DaskArray) else _arguments.array_of(called, value)

@@ -5,6 +5,7 @@ import errno
 import os
 import signal
 import time
+from fractions import Fraction
 
 import numpy as np
 import pytest
@@ -165,6 +166,14 @@ def test_a_number_is_for_all_boxes_and_one_set_may_have_what_the_other_has_not()
         found = allpairs.dask.overlaps(sets[0], **own).compute()
         assert found.tobytes() == allpairs.overlaps(first, **own).tobytes(), own
         assert allpairs.dask.count(sets[0], **own) == allpairs.count(first, **own)
+
+
+@pytest.mark.parametrize("number", [10**20, Fraction(1, 2), np.longdouble(0.5)])
+def test_a_margin_for_all_boxes_is_any_number_that_a_distance_is(number):
+    boxes = boxes_of("uniform", np.float32)[:300]
+    parts = dask.array.from_array(boxes, chunks=(100, 6))
+    expected = allpairs.overlaps(boxes, distance=2 * float(number))
+    assert allpairs.dask.overlaps(parts, margin=number).compute().tobytes() == expected.tobytes()
 
 
 def test_a_margin_without_end_pairs_its_box_with_all():

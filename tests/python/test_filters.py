@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: MIT
 """What is left out: by group, category and mask, by list, by region."""
 
+from decimal import Decimal
+from fractions import Fraction
+
 import allpairs
 import numpy as np
 import pytest
@@ -37,6 +40,35 @@ def test_one_number_is_for_all_boxes(one, boxes):
         np.testing.assert_array_equal(allpairs.overlaps_between(boxes, boxes, **{name: (None, one(number))}), expected)
     wide = allpairs.overlaps_between(boxes, boxes, margin=(0.5, 0.5))
     np.testing.assert_array_equal(allpairs.overlaps_between(boxes, boxes, margin=0.5), wide)
+
+
+@pytest.mark.parametrize(
+    "number",
+    [10**20, -(10**20), 2**53 + 1, Fraction(1, 2), Decimal("-0.5"), np.longdouble(1.5), np.array(10**20), np.float16(0.5), True],
+)
+def test_a_margin_for_all_boxes_is_any_number_that_a_distance_is(number, boxes):
+    lower, upper = boxes
+    expected = allpairs.overlaps(lower, upper, distance=2 * float(number))
+    np.testing.assert_array_equal(allpairs.overlaps(lower, upper, margin=number), expected)
+    np.testing.assert_array_equal(allpairs.overlaps_in_worlds(lower, upper, [0, len(lower)], margin=number)[0], expected)
+    of_one = allpairs.overlaps_between((lower, upper), (lower, upper), margin=(number, None))
+    np.testing.assert_array_equal(of_one, allpairs.overlaps_between((lower, upper), (lower, upper), distance=number))
+    flat = lower[:, :2], upper[:, :2]
+    in_plane = allpairs.overlaps(*flat, distance=2 * float(number))
+    np.testing.assert_array_equal(allpairs.overlaps(*flat, margin=number), in_plane)
+    world = allpairs.World()
+    ids = world.add(lower, upper, margin=number)
+    np.testing.assert_array_equal(world.step().pairs, expected)
+    world.set_properties(ids, margin=0)
+    world.set_properties(ids, margin=number)
+    assert set(world.properties(ids)["margin"]) == {float(number)}
+
+
+def test_a_length_is_any_number_that_a_distance_is():
+    world = allpairs.World()
+    world.add([1e19, 0, 0, 1e20, 1, 1])
+    for length, t in ((10**20, 1e19), (Fraction(1, 2), np.inf), (np.longdouble(2e19), 1e19)):
+        assert world.first_hits([0, 0, 0], [1, 0, 0], length)[1].tolist() == [t]
 
 
 def test_a_mask_alone_is_against_categories_of_all_bits(boxes):

@@ -99,6 +99,14 @@ def test_worlds_and_what_they_share_have_the_same_axes():
         allpairs.overlaps_in_worlds(np.zeros((3, 2, 5)))
 
 
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("setting", [{"distance": -1e300}, {"margin": -1e39}, {"margin": [-1e300] * 3}])
+def test_distances_that_float32_does_not_hold_warn_of_nothing(setting):
+    boxes = np.float32([[0, 0, 1, 1], [0, 0, 1, 1], [-np.inf, -np.inf, np.inf, np.inf]])
+    assert allpairs.overlaps(boxes, **setting).tolist() == allpairs.overlaps(boxes.astype(float), **setting).tolist()
+    assert allpairs.count_in_worlds(boxes, offsets=[0, 3], **setting).tolist() == [allpairs.count(boxes, **setting)]
+
+
 def test_a_nan_is_named_as_in_space():
     with pytest.raises(allpairs.InvalidBox, match="^box 1: max y"):
         allpairs.overlaps([[0, 0, 1, 1], [0, 0, 1, np.nan]])
