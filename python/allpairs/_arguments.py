@@ -104,12 +104,6 @@ def shown(value: object) -> str:
     return text if len(text) <= 80 else text[:77] + "..."
 
 
-def text_of(name: str, value: object) -> str:
-    if not isinstance(value, str):
-        raise InvalidArgument(f"{name} is {shown(value)}, and no str")
-    return value
-
-
 def path_of(name: str, value: str | bytes | os.PathLike[Any]) -> str:
     """A path of a file or folder."""
     try:

@@ -198,8 +198,10 @@ def load(
 
     options = _reading.ReadOptions()
     options.search_roots = _search_roots_of(search_roots)
-    if sofa != "":
-        options.sofa = _reading.sofa_version(_arguments.text_of("sofa", sofa))
+    if not isinstance(sofa, str):
+        raise TypeError(f"sofa is {_arguments.shown(sofa)}; it takes a str")
+    if sofa:
+        options.sofa = _reading.sofa_version(sofa)
     options.max_memory = _arguments.whole("max_memory", max_memory)
     options.partial = _arguments.flag("partial", partial)
     options.allow_outside = _arguments.flag("allow_outside", allow_outside)

@@ -159,7 +159,6 @@ MESH = {"triangles": [[0, 1, 2]], "vertex_count": 3}
         (lambda: allpairs.load("a.scn", max_memory=-1), "max_memory is -1; it is at least 0"),
         (lambda: allpairs.load("a.scn", sofa="21.06"), "sofa: '21.06' is neither a version up to 20.06 nor one from 22.06"),
         (lambda: allpairs.load("a.scn", sofa="22.13"), "sofa: '22.13' is no version of SOFA"),
-        (lambda: allpairs.load("a.scn", sofa=24.06), "sofa is 24.06, and no str"),
         (lambda: allpairs.overlaps(BOXES, order="x" * 1000), "order is 'xxx.*; it can be 'first'"),
         (lambda: WORLD.remove(-1), "ids is -1; it takes 0 to"),
         (lambda: WORLD.remove(np.array([False])), "ids has dtype bool"),
@@ -205,6 +204,8 @@ def test_numbers_out_of_range_are_named_on_one_line(call, message):
         (lambda: allpairs.load("a.scn", max_memory="1G"), "max_memory is '1G'; it takes an integer"),
         (lambda: allpairs.join(5), "inputs is 5; it takes a path or several"),
         (lambda: allpairs.load(5), "path is 5; it takes a path"),
+        (lambda: allpairs.load("a.scn", sofa=24.06), "sofa is 24.06; it takes a str$"),
+        (lambda: allpairs.detect("a.scn", sofa=None), "sofa is None; it takes a str$"),
     ],
 )
 def test_values_of_another_type_are_named_on_one_line(call, message):
