@@ -118,7 +118,8 @@ ALLPAIRS_C_API size_t allpairs_set_size(const allpairs_set* set);
 /// Sets how far every box extends beyond its bounds, on all sides.
 ALLPAIRS_C_API allpairs_status allpairs_set_margin(allpairs_set* set, double margin);
 
-/// Sets one margin per box, as many as there are boxes; null removes them. The memory stays the caller's.
+/// Sets one margin per box, as many as there are boxes, in place of that of allpairs_set_margin(); null removes them, and
+/// that one holds again. The memory stays the caller's.
 ALLPAIRS_C_API allpairs_status allpairs_set_margins(allpairs_set* set, const double* margins);
 
 // Searches.
@@ -612,7 +613,8 @@ ALLPAIRS_C_API allpairs_status allpairs_world_find_nearest(allpairs_world* world
 
 // Many queries in one call: the results are those of single queries, in less time, on the threads of the world.
 // Lists are valid until the next query, single or batched, with the same kind of result. An invalid query is an
-// ALLPAIRS_INVALID_ARGUMENT whose message gives its index; then no query is answered.
+// ALLPAIRS_INVALID_ARGUMENT, a sweep of a box with a NaN an ALLPAIRS_INVALID_BOX; the message gives its index. Then no
+// query is answered.
 
 /// Ids for each of `count` queries: those of query i are data[offsets[i]] to data[offsets[i + 1] - 1].
 typedef struct allpairs_id_lists {

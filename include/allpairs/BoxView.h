@@ -64,12 +64,13 @@ class BoxView {
   [[nodiscard]] static BoxView fromStrided(std::size_t size, CornerView<double> min, CornerView<double> max);
 
   /// Gives every box the same margin: how far it extends beyond its bounds, on all sides. Replaces margins of their
-  /// own.
+  /// own, for good.
   ///
   /// Bad input: NaN or -infinity throws InvalidArgument.
   void setMargin(double margin);
 
-  /// Gives each box its own margin; an empty span removes them. The memory stays the caller's.
+  /// Gives each box its own margin, in place of that of setMargin(); an empty span removes them, and that one holds
+  /// again. The memory stays the caller's.
   ///
   /// Bad input: a span of the wrong length throws InvalidArgument; a NaN or -infinity throws InvalidBox.
   void setMargins(Span<const double> margins);

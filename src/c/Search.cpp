@@ -184,8 +184,8 @@ allpairs_status allpairs_find_between_into(allpairs_search* search, const allpai
                                            const allpairs_set* second, allpairs_pair_memory* memory) {
   return guarded([&] {
     allpairs_pair_memory& to = required(memory, "memory");
-    const allpairs::BoxView& others = required(second, "second").boxes;
     findInto(to.data, to.capacity, to.count, [&](std::span<allpairs_pair> room) {
+      const allpairs::BoxView& others = required(second, "second").boxes;
       return PreparedCall(search, first, second)->findInto(first->boxes, others, pairsIn(room)).size();
     });
   });
@@ -195,8 +195,8 @@ allpairs_status allpairs_find_neighbors_into(allpairs_search* search, const allp
                                              allpairs_rows_memory* memory) {
   return guarded([&] {
     allpairs_rows_memory& to = required(memory, "memory");
-    const allpairs::NeighborRows known = rowsOf(numberIn(kind));
     findInto(to.indices, to.capacity, to.count, [&](std::span<std::uint32_t> room) {
+      const allpairs::NeighborRows known = rowsOf(numberIn(kind));
       const PreparedCall overlaps(search, set, nullptr);
       return overlaps->findNeighborsInto(set->boxes, known, {offsetsIn(to, set), room}).indices.size();
     });
@@ -207,8 +207,8 @@ allpairs_status allpairs_find_neighbors_between_into(allpairs_search* search, co
                                                      const allpairs_set* second, allpairs_rows_memory* memory) {
   return guarded([&] {
     allpairs_rows_memory& to = required(memory, "memory");
-    const allpairs::BoxView& others = required(second, "second").boxes;
     findInto(to.indices, to.capacity, to.count, [&](std::span<std::uint32_t> room) {
+      const allpairs::BoxView& others = required(second, "second").boxes;
       const PreparedCall overlaps(search, first, second);
       return overlaps->findNeighborsInto(first->boxes, others, {offsetsIn(to, first), room}).indices.size();
     });

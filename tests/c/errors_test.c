@@ -101,6 +101,30 @@ static void aFailedCallLeavesResultsAsTheyWere(void) {
   allpairs_set_destroy(set);
 }
 
+/// Also of the last call with the same structure.
+static void aFailedCallLeavesNoNumberInTheCallersMemory(void) {
+  allpairs_set* set = NULL;
+  allpairs_search* search = NULL;
+  allpairs_pair_memory pairs = {NULL, 0, 0};
+  uint64_t offsets[3];
+  allpairs_rows_memory rows = {offsets, NULL, 0, 0};
+  ALLPAIRS_CHECK(allpairs_set_create_f64(kBoxes, 2, &set) == ALLPAIRS_OK);
+  ALLPAIRS_CHECK(allpairs_search_create(NULL, &search) == ALLPAIRS_OK);
+  pairs.count = 55;
+  ALLPAIRS_CHECK(allpairs_find_into(search, NULL, &pairs) == ALLPAIRS_INVALID_ARGUMENT && pairs.count == 0);
+  pairs.count = 55;
+  ALLPAIRS_CHECK(allpairs_find_between_into(search, set, NULL, &pairs) == ALLPAIRS_INVALID_ARGUMENT &&
+                 checkSays("second is null") && pairs.count == 0);
+  rows.count = 55;
+  ALLPAIRS_CHECK(allpairs_find_neighbors_into(search, set, (allpairs_rows_kind)5, &rows) == ALLPAIRS_INVALID_ARGUMENT &&
+                 checkSays("no kind of rows 5") && rows.count == 0);
+  rows.count = 55;
+  ALLPAIRS_CHECK(allpairs_find_neighbors_between_into(search, set, NULL, &rows) == ALLPAIRS_INVALID_ARGUMENT &&
+                 checkSays("second is null") && rows.count == 0);
+  allpairs_search_destroy(search);
+  allpairs_set_destroy(set);
+}
+
 /// A caller that was compiled against an earlier, shorter structure.
 static void shorterStructuresAreTaken(void) {
   allpairs_search* search = NULL;
@@ -138,6 +162,7 @@ int main(void) {
   nullIsAnError();
   settingsThatMakeNoSenseAreRefused();
   aFailedCallLeavesResultsAsTheyWere();
+  aFailedCallLeavesNoNumberInTheCallersMemory();
   shorterStructuresAreTaken();
   anUnknownIdIsNamed();
   return EXIT_SUCCESS;

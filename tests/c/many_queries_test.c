@@ -173,6 +173,12 @@ static void nonsenseIsNamedAndAnswersNothing(allpairs_world* world) {
   ALLPAIRS_CHECK(refused(allpairs_world_find_all_many(world, rays, NULL, &lists), "ray 1"));
   ALLPAIRS_CHECK(refused(allpairs_world_sweep_first_many(world, sweeps, NULL, hits), "sweep 1") && hits[0].id == 7);
   ALLPAIRS_CHECK(refused(allpairs_world_sweep_all_many(world, sweeps, NULL, &lists), "sweep 1"));
+  const allpairs_sweep withNan[2] = {moving[0], {{0, NAN, 0, 1, 1, 1}, {1, 0, 0}, 1}};
+  const allpairs_sweeps ofNoBox = {withNan, 2};
+  ALLPAIRS_CHECK(allpairs_world_sweep_first_many(world, ofNoBox, NULL, hits) == ALLPAIRS_INVALID_BOX &&
+                 strstr(allpairs_error_message(), "1") != NULL && allpairs_error_index() == 1 && hits[0].id == 7);
+  ALLPAIRS_CHECK(allpairs_world_sweep_all_many(world, ofNoBox, NULL, &lists) == ALLPAIRS_INVALID_BOX &&
+                 allpairs_error_index() == 1);
   ALLPAIRS_CHECK(refused(allpairs_world_find_nearest_many(world, &nearest, NULL, &neighbors), "point 1"));
   ALLPAIRS_CHECK(refused(allpairs_world_find_all_many(world, nowhere, NULL, &lists), "rays is null"));
   ALLPAIRS_CHECK(refused(allpairs_world_find_first_many(world, rays, NULL, NULL), "hits is null"));

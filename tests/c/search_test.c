@@ -255,7 +255,14 @@ static void marginsAreAdded(void) {
   ALLPAIRS_CHECK(allpairs_count(search, set, &count) == ALLPAIRS_OK && count == 0);
   ALLPAIRS_CHECK(allpairs_set_margins(set, each) == ALLPAIRS_OK);
   ALLPAIRS_CHECK(allpairs_count(search, set, &count) == ALLPAIRS_OK && count == 1);
-  ALLPAIRS_CHECK(allpairs_set_margins(set, NULL) == ALLPAIRS_OK);
+  ALLPAIRS_CHECK(allpairs_set_margin(set, 0.5) == ALLPAIRS_OK);  // replaces them
+  ALLPAIRS_CHECK(allpairs_set_margins(set, each) == ALLPAIRS_OK);
+  ALLPAIRS_CHECK(allpairs_set_margin(set, 0.25) == ALLPAIRS_OK);
+  ALLPAIRS_CHECK(allpairs_count(search, set, &count) == ALLPAIRS_OK && count == 0);
+  ALLPAIRS_CHECK(allpairs_set_margin(set, 0.5) == ALLPAIRS_OK);
+  ALLPAIRS_CHECK(allpairs_set_margins(set, each) == ALLPAIRS_OK);
+  ALLPAIRS_CHECK(allpairs_set_margins(set, NULL) == ALLPAIRS_OK);  // brings that of all back
+  ALLPAIRS_CHECK(allpairs_count(search, set, &count) == ALLPAIRS_OK && count == 1);
   ALLPAIRS_CHECK(allpairs_set_margin(set, 0) == ALLPAIRS_OK);
   ALLPAIRS_CHECK(allpairs_count(search, set, &count) == ALLPAIRS_OK && count == 0);
   allpairs_search_destroy(search);
