@@ -33,7 +33,8 @@ class Worlds {
 
   /// Worlds with the same number of boxes each.
   ///
-  /// Bad input: boxes that do not divide equally throw InvalidArgument.
+  /// Bad input: boxes that do not divide equally, and more worlds than there could be offsets of, throw
+  ///            InvalidArgument.
   [[nodiscard]] static Worlds ofEqualSize(const BoxView& boxes, std::size_t worlds);
 
   /// Two boxes of a world, by their indices in it, are no pair in any world, however they overlap: once for all worlds.

@@ -269,5 +269,13 @@ TEST(MovedFrom, AWorldsSearchIsAsNew) {
   // NOLINTEND(bugprone-use-after-move)
 }
 
+/// As a number that has gone below 0 is.
+TEST(WorldsInput, MoreWorldsThanOffsetsCanBeKeptOfAreRefused) {
+  for (const std::size_t shift : {0U, 1U, 3U, 4U}) {
+    EXPECT_THROW(static_cast<void>(Worlds::ofEqualSize({}, SIZE_MAX >> shift)), InvalidArgument) << shift;
+  }
+  EXPECT_EQ(Worlds::ofEqualSize({}, (SIZE_MAX >> 4U) - 1).size(), (SIZE_MAX >> 4U) - 1);
+}
+
 }  // namespace
 }  // namespace allpairs
