@@ -58,9 +58,11 @@ SceneSearch searchOfAll(const Scene& scene) {
   return search;
 }
 
+/// The first input is the scene's own file.
 void requireOneSearch(const Scene& scene) {
-  if (!scene.pipelines.empty())
-    throw InvalidArgument("a scene with several collision pipelines cannot be taken together with other inputs");
+  if (scene.pipelines.empty()) return;
+  const std::string file = scene.inputs.empty() ? "" : scene.inputs.front().string() + ": ";
+  throw InvalidArgument(file + "a scene with several collision pipelines cannot be taken together with other inputs");
 }
 
 /// Leaves the models' names as they are.

@@ -198,7 +198,10 @@ TEST(DetectScene, EachPipelinePairsItsOwnModels) {
 TEST(DetectScene, SeveralPipelinesAreNotTakenTogetherWithOtherInputs) {
   const TempFolder folder;
   const std::string scene = folder.write("two.scn", kTwoPipelines);
-  expectFailure(runProgram({"detect", scene, kDemoZones}), 3, "several collision pipelines");
+  const std::string why = scene + ": a scene with several collision pipelines cannot be taken together";
+  expectFailure(runProgram({"detect", scene, kDemoZones}), 3, why);
+  expectFailure(runProgram({"detect", kDemoZones, kDemoScene, scene}), 3, why);
+  expectFailure(runProgram({"info", kDemoZones, scene}), 3, why);
   expectFailure(runProgram({"view", scene, "-o", folder.path() / "page.html"}), 2, "several collision pipelines");
 }
 

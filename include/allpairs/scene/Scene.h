@@ -110,8 +110,8 @@ struct SceneSearch {
 /// first region that a file names apply to all; others give a remark. The first input that says which axis is up, and
 /// how long a unit is, says it for all: coordinates are not converted, and others give a warning.
 ///
-/// Bad input: where one of the two has several pipelines, throws InvalidArgument: each has its models and its method,
-///            and nothing says which of them would take the others.
+/// Bad input: where one of the two has several pipelines, throws InvalidArgument, which names its file: each has its
+///            models and its method, and nothing says which of them would take the others.
 /// Cost:      linear in the models of both, since any of them may get another name. Append many scenes together.
 void append(Scene& scene, Scene more);
 
