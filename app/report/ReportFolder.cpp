@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cstddef>
 #include <fstream>
 #include <sstream>
@@ -59,6 +60,21 @@ bool looksLikeFile(const fs::path& folder) {
   return std::find(kSuffixes.begin(), kSuffixes.end(), lowerExtension(folder.string())) != kSuffixes.end();
 }
 
+[[noreturn]] void failToWrite(const fs::path& folder, std::error_code problem) {
+  std::error_code ignored;
+  const bool isThere = fs::is_directory(folder, ignored);
+  throw FileError::ofSystem(folder, isThere ? "cannot be written to" : "cannot create this folder", problem);
+}
+
+/// Throws unless files and folders can be made in it, or, where it is not there, in the nearest one above that is.
+void checkMayWrite(const fs::path& folder) {
+  std::error_code ignored;
+  fs::path there = folder;
+  while (!there.empty() && !fs::exists(fs::symlink_status(there, ignored))) there = there.parent_path();
+  if (there.empty()) there = ".";
+  if (::access(there.c_str(), W_OK | X_OK) != 0) failToWrite(folder, {errno, std::generic_category()});
+}
+
 }  // namespace
 
 std::vector<fs::path> filesOfReport(const fs::path& folder) {
@@ -88,6 +104,8 @@ void checkReportFolder(const fs::path& folder, bool force) {
   if (isFull(folder) && !force && !holdsReport(folder)) {
     throw FileError(folder, "is not empty and holds no report; --force writes one into it all the same");
   }
+  checkMayWrite(folder);
+  if (fs::is_directory(folder / "pictures", ignored)) checkMayWrite(folder / "pictures");
 }
 
 /// What the first constructor has made is destroyed where the second one throws.
@@ -111,7 +129,7 @@ void ReportFolder::makeFolder(const fs::path& folder) {
   if (!above.empty()) makeFolder(above);
   noteNew(folder);  // before it is there: there may be no memory then
   if (!fs::create_directory(folder, problem)) m_new.pop_back();
-  if (problem) throw FileError::ofSystem(folder, "cannot create this folder", problem);
+  if (problem) failToWrite(m_folder, problem);
 }
 
 void ReportFolder::noteNew(const fs::path& path) {

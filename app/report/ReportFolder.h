@@ -10,8 +10,8 @@
 
 namespace allpairs::app {
 
-/// Fails before the work that a report needs where the folder cannot be: a file is in its place, or, unless it is
-/// forced, the folder holds something else than an earlier report.
+/// Fails before the work that a report needs where the folder cannot be: a file is in its place, it may not be
+/// written to or made, or, unless it is forced, it holds something else than an earlier report.
 ///
 /// Bad input: throws FileError; a new folder that is called like a file of a report, UsageError.
 void checkReportFolder(const std::filesystem::path& folder, bool force);

@@ -160,5 +160,27 @@ TEST(OutputFile, ThatMayNotBeWrittenIsNotReplaced) {
   EXPECT_EQ(readBytes(target), "before");
 }
 
+TEST(OutputFolder, ThatMayNotBeWrittenIsRefusedBeforeTheWork) {
+  if (::geteuid() == 0) GTEST_SKIP() << "the superuser may write to every folder: a read-only one is not tried";
+  using std::filesystem::perms;
+  const TempFolder folder;
+  const std::string out = folder.path() / "report";
+  expectSuccess(runProgram({"report", twoBoxes(folder), "-o", out}));
+  const std::string table = readBytes(out + "/clashes.csv");
+  const std::string bad = folder.write("bad.csv", "no box\n");  // which the work would find out
+  const std::string may = ": Permission denied\n";
+  std::filesystem::permissions(out + "/pictures", perms::owner_read | perms::owner_exec);
+  expectFailure(runProgram({"report", bad, "-o", out}), 3, ": " + out + "/pictures: cannot be written to" + may);
+  std::filesystem::permissions(out, perms::owner_read | perms::owner_exec);
+  expectFailure(runProgram({"report", bad, "-o", out}), 3, ": " + out + ": cannot be written to" + may);
+  for (const char* name : {"/new", "/new/", "/new/er"})
+    expectFailure(runProgram({"report", bad, "-o", out + name}), 3,
+                  ": " + out + name + ": cannot create this folder" + may);
+  std::filesystem::permissions(out, perms::owner_all);
+  std::filesystem::permissions(out + "/pictures", perms::owner_all);
+  EXPECT_EQ(readBytes(out + "/clashes.csv"), table);
+  EXPECT_FALSE(std::filesystem::exists(out + "/new"));
+}
+
 }  // namespace
 }  // namespace allpairs::test
