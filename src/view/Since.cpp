@@ -88,13 +88,25 @@ std::optional<ExactState> stateNamed(std::string_view name) {
   return std::nullopt;
 }
 
-/// A depth; none where there is no number, or none that is a depth.
-std::optional<double> depthIn(const std::string& cell) {
+/// A finite number; none where the cell has another text.
+std::optional<double> numberIn(const std::string& cell) {
   double value = 0.0;
   const auto [end, problem] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-  const bool isDepth = std::isfinite(value) && value >= 0.0;
-  if (problem != std::errc() || end != cell.data() + cell.size() || !isDepth) return std::nullopt;
+  if (problem != std::errc() || end != cell.data() + cell.size() || !std::isfinite(value)) return std::nullopt;
   return value;
+}
+
+/// A depth; none where there is no number, or none that is a depth.
+std::optional<double> depthIn(const std::string& cell) {
+  const std::optional<double> value = numberIn(cell);
+  return value && *value >= 0.0 ? value : std::nullopt;
+}
+
+/// A point of three cells; none where one of them has no number.
+std::optional<std::array<double, 3>> pointIn(const std::string& x, const std::string& y, const std::string& z) {
+  const std::array<std::optional<double>, 3> numbers{numberIn(x), numberIn(y), numberIn(z)};
+  if (!numbers[0] || !numbers[1] || !numbers[2]) return std::nullopt;
+  return std::array{*numbers[0], *numbers[1], *numbers[2]};
 }
 
 /// What has become of a row that an earlier report has too.
@@ -125,11 +137,66 @@ std::string keyOf(std::string first, std::string second) {
   return first + '\n' + second;
 }
 
+/// Of a model of now, as the table has it.
+EarlierPlace placeOf(const ViewScene& scene, std::uint32_t model) {
+  return {validUtf8(scene.fileNames[scene.files[model]]), validUtf8(scene.paths[model])};
+}
+
 std::string textOf(const EarlierPlace& place) { return place.file.empty() ? "" : place.file + '\n' + place.path; }
 
-/// Of a model of now, as the table has it.
-std::string placeTextOf(const ViewScene& scene, std::uint32_t model) {
-  return validUtf8(scene.fileNames[scene.files[model]]) + '\n' + validUtf8(scene.paths[model]);
+/// Without its folders.
+std::string_view lastNameOf(std::string_view file) { return file.substr(file.rfind('/') + 1); }
+
+std::string endTextOf(const EarlierPlace& place) { return textOf({std::string(lastNameOf(place.file)), place.path}); }
+
+std::string keyOfPlaces(const std::array<EarlierPlace, 2>& places) {
+  return keyOf(textOf(places[0]), textOf(places[1]));
+}
+
+/// Of places without folders, and of the point where the two meet; empty where there is none.
+std::string keyOfEnds(const std::array<EarlierPlace, 2>& places, const std::optional<std::array<double, 3>>& point) {
+  const std::string ends = keyOf(endTextOf(places[0]), endTextOf(places[1]));
+  if (ends.empty() || !point) return {};
+  const auto [x, y, z] = *point;
+  return fmt::format("{}\n{:.9g} {:.9g} {:.9g}", ends, x + 0.0, y + 0.0, z + 0.0);  // 0 for -0
+}
+
+/// Whether the folders of one file are the last ones of the other's: of files of one name those count that tell them
+/// apart, and so more where another one has come in.
+bool isSameButForFirstFolders(const EarlierPlace& a, const EarlierPlace& b) {
+  const bool isLonger = a.file.size() > b.file.size();
+  const std::string& file = isLonger ? a.file : b.file;
+  const std::string& end = isLonger ? b.file : a.file;
+  return a.path == b.path && (file == end || file.ends_with('/' + end));
+}
+
+bool areSameButForFirstFolders(const std::array<EarlierPlace, 2>& a, const std::array<EarlierPlace, 2>& b) {
+  return (isSameButForFirstFolders(a[0], b[0]) && isSameButForFirstFolders(a[1], b[1])) ||
+         (isSameButForFirstFolders(a[0], b[1]) && isSameButForFirstFolders(a[1], b[0]));
+}
+
+/// Whether a file is none of an earlier row's, and one of these has its name in another folder.
+bool isOfAnotherFolder(const std::string& file, const std::array<EarlierPlace, 2>& earlier) {
+  const auto isSameFile = [&](const EarlierPlace& place) { return place.file == file; };
+  const auto isOfSameName = [&](const EarlierPlace& place) { return lastNameOf(place.file) == lastNameOf(file); };
+  return std::none_of(earlier.begin(), earlier.end(), isSameFile) &&
+         std::any_of(earlier.begin(), earlier.end(), isOfSameName);
+}
+
+/// Whether a row of now may be the earlier one that has its GUID. That one may have kept the GUID of a file of the same
+/// name, which is known by other folders now; what has a GlobalId is known by it, whatever its file.
+bool mayBeSame(const ViewScene& scene, const EarlierClash& earlier, const Clash& clash) {
+  const auto mayBe = [&](std::uint32_t model) {
+    const bool hasId = !scene.ids.empty() && !scene.ids[model].empty();
+    return hasId || !isOfAnotherFolder(placeOf(scene, model).file, earlier.places);
+  };
+  return scene.files.empty() || (mayBe(clash.first) && mayBe(clash.second));
+}
+
+/// Where the two of a row of now meet, as its table says.
+std::optional<std::array<double, 3>> pointOf(const Clash& clash) {
+  if (clash.exact == nullptr || clash.exact->state == ExactState::NotExamined) return std::nullopt;
+  return allpairs::placeOf(*clash.exact);
 }
 
 std::string nameTextOf(const ViewScene& scene, std::uint32_t model) { return validUtf8(scene.name(model)); }
@@ -139,13 +206,23 @@ class RowMatch {
  public:
   RowMatch(const std::vector<EarlierClash>& earlier, const ViewScene& scene, std::span<const Clash> clashes)
       : m_earlier(earlier), m_clashes(clashes), m_found(clashes.size(), nullptr) {
-    matchBy([](const EarlierClash& clash) { return clash.guid; }, [](const Clash& clash) { return clash.guid; });
+    const auto any = [](const EarlierClash& /*before*/, const Clash& /*clash*/) { return true; };
+    matchBy([](const EarlierClash& clash) { return clash.guid; }, [](const Clash& clash) { return clash.guid; },
+            [&](const EarlierClash& before, const Clash& clash) { return mayBeSame(scene, before, clash); });
     if (scene.files.empty()) return;
-    matchBy(
-        [](const EarlierClash& clash) { return keyOf(textOf(clash.places[0]), textOf(clash.places[1])); },
-        [&](const Clash& clash) { return keyOf(placeTextOf(scene, clash.first), placeTextOf(scene, clash.second)); });
+    const auto placesOf = [&scene](const Clash& clash) {
+      return std::array{placeOf(scene, clash.first), placeOf(scene, clash.second)};
+    };
+    matchBy([](const EarlierClash& clash) { return keyOfPlaces(clash.places); },
+            [&](const Clash& clash) { return keyOfPlaces(placesOf(clash)); }, any);
+    matchBy([](const EarlierClash& clash) { return keyOfEnds(clash.places, clash.point); },
+            [&](const Clash& clash) { return keyOfEnds(placesOf(clash), pointOf(clash)); },
+            [&](const EarlierClash& before, const Clash& clash) {
+              return areSameButForFirstFolders(before.places, placesOf(clash));
+            });
     matchBy([](const EarlierClash& clash) { return keyOf(clash.first, clash.second); },
-            [&](const Clash& clash) { return keyOf(nameTextOf(scene, clash.first), nameTextOf(scene, clash.second)); });
+            [&](const Clash& clash) { return keyOf(nameTextOf(scene, clash.first), nameTextOf(scene, clash.second)); },
+            any);
   }
 
   [[nodiscard]] const EarlierClash* of(std::size_t clash) const { return m_found[clash]; }
@@ -160,8 +237,9 @@ class RowMatch {
     std::size_t row = 0;
   };
 
-  template <class EarlierKey, class Key>
-  void matchBy(const EarlierKey& earlierKey, const Key& key) {
+  /// Matches an earlier row and one of now that alone have a key, where isMatch() says so of the two.
+  template <class EarlierKey, class Key, class IsMatch>
+  void matchBy(const EarlierKey& earlierKey, const Key& key, const IsMatch& isMatch) {
     std::unordered_map<std::string, Keyed> keys;
     for (const EarlierClash& clash : m_earlier) {
       if (!isGone(clash)) continue;
@@ -177,7 +255,7 @@ class RowMatch {
     }
     keys.erase("");
     for (const auto& [text, keyed] : keys) {
-      if (keyed.earlierRows != 1 || keyed.rows != 1) continue;
+      if (keyed.earlierRows != 1 || keyed.rows != 1 || !isMatch(*keyed.earlier, m_clashes[keyed.row])) continue;
       m_found[keyed.row] = keyed.earlier;
       m_taken.insert(keyed.earlier);
     }
@@ -203,6 +281,7 @@ std::vector<EarlierClash> readReportCsv(std::string_view text) {
   const std::size_t guid = columnOf("guid");
   const std::size_t state = columnOf("state");
   const std::size_t depth = columnOf("depth");
+  const std::array<std::size_t, 3> point{columnOf("x"), columnOf("y"), columnOf("z")};
   const std::array<std::array<std::size_t, 2>, 2> places{
       {{columnOf("first_file"), columnOf("first_path")}, {columnOf("second_file"), columnOf("second_path")}}};
   std::vector<EarlierClash> rows;
@@ -216,6 +295,8 @@ std::vector<EarlierClash> readReportCsv(std::string_view text) {
     EarlierClash& row = rows.emplace_back();
     if (state < head.size()) row.state = stateNamed(fields[state]);
     if (depth < head.size()) row.depth = depthIn(fields[depth]);
+    if (std::max({point[0], point[1], point[2]}) < head.size())
+      row.point = pointIn(fields[point[0]], fields[point[1]], fields[point[2]]);
     row.guid = std::move(fields[guid]);
     for (std::size_t i = 0; i < row.places.size(); ++i) {
       const auto [file, path] = places[i];
@@ -231,6 +312,8 @@ std::vector<EarlierClash> readReportCsv(std::string_view text) {
 Since compareWith(const std::vector<EarlierClash>& earlier, std::string name, const ViewScene& scene,
                   std::span<Clash> clashes) {
   const RowMatch match(earlier, scene, clashes);
+  std::unordered_set<std::string_view> earlierGuids;
+  for (const EarlierClash& clash : earlier) earlierGuids.insert(clash.guid);
   Since since{.name = std::move(name)};
   for (std::size_t i = 0; i < clashes.size(); ++i) {
     Clash& clash = clashes[i];
@@ -238,6 +321,9 @@ Since compareWith(const std::vector<EarlierClash>& earlier, std::string name, co
     clash.since = before == nullptr ? Change::New : changeOf(*before, clash);
     if (before != nullptr) clash.before = beforeOf(*before, clash);
     if (before != nullptr) clash.guid = before->guid;
+    if (before == nullptr) {
+      while (earlierGuids.contains(clash.guid)) clash.guid = guidOf({clash.guid, "another"});
+    }
     ++(*clash.since == Change::New          ? since.added
        : *clash.since == Change::Persisting ? since.persisting
                                             : since.resolved);

@@ -27,6 +27,7 @@ struct EarlierClash {
   std::optional<ExactState> state{};  ///< Of its worst pair, where shapes were tested.
   std::optional<double> depth{};      ///< Of that pair.
   std::array<EarlierPlace, 2> places{};
+  std::optional<std::array<double, 3>> point{};  ///< Where that pair meets, or is nearest.
 };
 
 /// What has become of an earlier report's rows.
@@ -48,8 +49,9 @@ struct Since {
 
 /// Compares rows with those of an earlier report, by their GUIDs and states, and notes in each what has become of it.
 /// Rows whose GUIDs only one of the two has, such as of parts that are in another assembly now, are the same where
-/// both their models have the same places, or else the same names, and no other such row has; they keep the earlier
-/// GUID.
+/// both their models have the same places, or else meet at the same point and have the same places but for the first
+/// folders of their files, or else have the same names, and no other such row has; they keep the earlier GUID.
+/// A new row whose GUID an earlier one has kept that way gets another.
 [[nodiscard]] Since compareWith(const std::vector<EarlierClash>& earlier, std::string name, const ViewScene& scene,
                                 std::span<Clash> clashes);
 

@@ -213,6 +213,106 @@ TEST(ReportSince, FilesOfOneNameAreKnownByTheirFolders) {
   for (const auto& [name, guid] : before) EXPECT_NE(after.at("left"), guid) << name;
 }
 
+/// The rows of a report of parts of three triangles, with one before it; each is a file, at a place on the x axis.
+class MovedFiles {
+ public:
+  using Parts = std::map<std::string, double>;
+  /// What became of each row of now, by its names, and its GUID.
+  using Rows = std::map<std::string, std::pair<std::string, std::string>>;
+
+  Rows report(const Parts& parts, const Names& options = {}) {
+    fs::remove_all(m_folder.path() / "parts");
+    for (const auto& [name, x] : parts) m_folder.write("parts/" + name, "o part\n" + wedgeAt(x));
+    Names words{"report", m_folder.path() / "parts", "--recursive", "-o", m_folder.path() / "out"};
+    words.insert(words.end(), options.begin(), options.end());
+    expectSuccess(runProgram(words));
+    Rows rows;
+    for (const auto& row : rowsOf(m_folder.path() / "out")) {
+      const auto& [first, second] = std::minmax(row.at("first_file"), row.at("second_file"));
+      const auto since = row.find("since");
+      rows[first + ' ' + second] = {since == row.end() ? "" : since->second, row.at("guid")};
+    }
+    return rows;
+  }
+  Rows reportSince(const Parts& parts, const Names& options = {}) {
+    Names words{"--since", m_folder.path() / "out"};
+    words.insert(words.end(), options.begin(), options.end());
+    return report(parts, words);
+  }
+
+ private:
+  static std::string wedgeAt(double x) {
+    std::string text;
+    for (const auto& [dx, y, z] : {std::array{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}})
+      text += "v " + std::to_string(x + dx) + ' ' + std::to_string(y) + ' ' + std::to_string(z) + '\n';
+    return text + "f -4 -2 -3\nf -4 -3 -1\nf -4 -1 -2\nf -3 -2 -1\n";
+  }
+
+  TempFolder m_folder;
+};
+
+TEST(ReportSince, ClashesStayWhereAFileOfTheSameNameComesIntoAnotherFolderOrGoes) {
+  MovedFiles files;
+  const MovedFiles::Parts one{{"left/bolt.obj", 0.0}, {"left/plate.obj", 0.25}};
+  const std::string guid = files.report(one).at("bolt.obj plate.obj").second;
+  MovedFiles::Parts two = one;
+  two["right/bolt.obj"] = 50.0;
+  two["before/plate.obj"] = 60.0;
+  const MovedFiles::Rows persists{{"left/bolt.obj left/plate.obj", {"persisting", guid}}};
+  EXPECT_EQ(files.reportSince(two), persists);
+  EXPECT_EQ(files.reportSince(two), persists);
+  EXPECT_EQ(files.reportSince(one), (MovedFiles::Rows{{"bolt.obj plate.obj", {"persisting", guid}}}));
+}
+
+TEST(ReportSince, OfClashesWithFilesOfOneNameTheOneAtTheSamePointStays) {
+  MovedFiles files;
+  const MovedFiles::Rows before = files.report({{"left/bolt.obj", 0.0}, {"right/bolt.obj", 0.75}, {"plate.obj", 0.25}});
+  ASSERT_EQ(before.size(), 3U);
+  const std::string& right = before.at("plate.obj right/bolt.obj").second;
+  EXPECT_EQ(files.reportSince({{"right/bolt.obj", 0.75}, {"plate.obj", 0.25}}),
+            (MovedFiles::Rows{
+                {"bolt.obj plate.obj", {"persisting", right}},
+                {"left/bolt.obj plate.obj", {"resolved", before.at("left/bolt.obj plate.obj").second}},
+                {"left/bolt.obj right/bolt.obj", {"resolved", before.at("left/bolt.obj right/bolt.obj").second}}}));
+}
+
+TEST(ReportSince, AClashWithAnotherFileOfTheNameIsAnother) {
+  MovedFiles files;
+  const std::string guid = files.report({{"left/bolt.obj", 0.0}, {"plate.obj", 0.25}}).at("bolt.obj plate.obj").second;
+  // At another point: the bolt on the left is gone from where it was.
+  MovedFiles::Rows after = files.reportSince({{"left/bolt.obj", 9.0}, {"right/bolt.obj", 0.5}, {"plate.obj", 0.25}});
+  EXPECT_EQ(after.at("plate.obj right/bolt.obj").first, "new");
+  EXPECT_EQ(after.at("bolt.obj plate.obj"), std::pair(std::string("resolved"), guid));
+  // At the same point, in the place of the other.
+  const std::string right = after.at("plate.obj right/bolt.obj").second;
+  after = files.reportSince({{"left/bolt.obj", 0.5}, {"right/bolt.obj", 9.0}, {"plate.obj", 0.25}});
+  EXPECT_EQ(after.at("left/bolt.obj plate.obj").first, "new");
+  EXPECT_EQ(after.at("plate.obj right/bolt.obj"), std::pair(std::string("resolved"), right));
+  // Two at one point: it may be either.
+  files.report({{"left/bolt.obj", 0.0}, {"plate.obj", 0.25}});
+  after = files.reportSince({{"left/bolt.obj", 0.0}, {"right/bolt.obj", 0.0}, {"plate.obj", 0.25}});
+  EXPECT_EQ(after.at("left/bolt.obj plate.obj").first, "new");
+  EXPECT_EQ(after.at("plate.obj right/bolt.obj").first, "new");
+  EXPECT_EQ(after.at("bolt.obj plate.obj"), std::pair(std::string("resolved"), guid));
+}
+
+TEST(ReportSince, ANewClashHasNotTheGuidThatAnotherKept) {
+  MovedFiles files;
+  const MovedFiles::Parts one{{"left/bolt.obj", 0.0}, {"plate.obj", 0.25}};
+  const std::string guid = files.report(one).at("bolt.obj plate.obj").second;
+  MovedFiles::Parts two = one;
+  two["right/bolt.obj"] = 9.0;
+  EXPECT_EQ(files.reportSince(two), (MovedFiles::Rows{{"left/bolt.obj plate.obj", {"persisting", guid}}}));
+  // Now the file on the right is known as that on the left was at first.
+  const MovedFiles::Parts right{{"right/bolt.obj", 0.5}, {"plate.obj", 0.25}};
+  MovedFiles::Rows after = files.reportSince(right);
+  const std::string another = after.at("bolt.obj plate.obj").second;
+  EXPECT_NE(another, guid);
+  EXPECT_EQ(after, (MovedFiles::Rows{{"bolt.obj plate.obj", {"new", another}},
+                                     {"left/bolt.obj plate.obj", {"resolved", guid}}}));
+  EXPECT_EQ(files.reportSince(right), (MovedFiles::Rows{{"bolt.obj plate.obj", {"persisting", another}}}));
+}
+
 TEST(ReportSince, NamesThatAreNotUtf8AreKnownAgain) {
   const TempFolder folder;
   folder.write("parts/a.obj", "o tr\xe4ger\n" + kTriangle);
