@@ -239,6 +239,41 @@ TEST(FewBoxesWithOptions, BeyondTheLimitAreAnErrorThatLeavesTheSearchUsable) {
   }
 }
 
+TEST(FewBoxesWithOptions, ReachAsFarAsTheLeastNumber) {
+  const double least = std::numeric_limits<double>::denorm_min();
+  std::vector<Box> boxes(20, {{-1, -1, -1}, {0, 0, 0}});
+  boxes.back() = {{least, 0, 0}, {1, 1, 1}};
+  for (const std::size_t n : {2U, 20U}) {
+    const std::vector<Box> some(boxes.end() - static_cast<std::ptrdiff_t>(n), boxes.end());
+    EXPECT_EQ(overlaps(some, {.distance = least}).size(), n * (n - 1) / 2) << n;
+    EXPECT_EQ(overlaps(some).size(), (n - 1) * (n - 2) / 2) << n;
+  }
+}
+
+TEST(FewBoxesWithOptions, AreStoppedByAVisitorBeforeTheNextBatch) {
+  const std::vector<Box> boxes(30, test::cube(0, 0, 0));
+  for (const double distance : {0.0, 0.1}) {
+    StopFlag stop;
+    OverlapOptions options{.distance = distance};
+    options.stop = &stop;
+    OverlapSearch search(options);
+    std::size_t batches = 0;
+    const auto setFlag = [&](Span<const Pair>) {
+      stop.set();
+      ++batches;
+    };
+    EXPECT_THROW(search.stream(boxes, setFlag, 16), Stopped);
+    EXPECT_EQ(batches, 1U);
+    EXPECT_EQ(search.statistics().pairs, 0U);
+    stop.clear();
+    std::size_t pairs = 0;
+    search.stream(
+        boxes, [&](Span<const Pair> batch) { pairs += batch.size(); }, 16);
+    EXPECT_EQ(pairs, 435U);
+    EXPECT_EQ(search.statistics().pairs, 435U);
+  }
+}
+
 TEST(FewBoxesWithOptions, AreStoppedBeforeTheSearch) {
   const std::vector<Box> boxes(5, test::cube(0, 0, 0));
   StopFlag stop;

@@ -176,10 +176,12 @@ bool touch(const Box& a, const Box& b, double d) noexcept {
 void testChecked(const Sets& sets, const OverlapOptions& options, Order order, TakePairs take) {
   if (pairsOf(sets) == 0) return;
   checkStop(options.stop);
-  std::array<Candidate, kTestedPairs + 1> candidates;
-  const std::span<const Candidate> first = readCandidates(sets.first, options, candidates.data());
+  // Candidates themselves would be set to 0 first.
+  alignas(Candidate) std::array<std::byte, (kTestedPairs + 1) * sizeof(Candidate)> bytes;
+  auto* const candidates = reinterpret_cast<Candidate*>(bytes.data());
+  const std::span<const Candidate> first = readCandidates(sets.first, options, candidates);
   const std::span<const Candidate> second =
-      sets.one ? first : readCandidates(sets.second, options, candidates.data() + first.size());
+      sets.one ? first : readCandidates(sets.second, options, candidates + first.size());
   const bool bySecond = order == Order::BySecond;
   PairsOnStack<kTestedPairs> pairs;
   std::size_t found = 0;
@@ -214,12 +216,12 @@ using WordRows = std::array<double, 6 * kWordBoxes>;
 BoxView copyWide(const BoxView& boxes, double distance, WordRows& rows) {
   /// More than all sums here and in the exact test are rounded by.
   constexpr double kSlack = 0x1p-48;
-  const bool widens = distance != 0.0 || boxes.hasMargins();
+  const bool isWider = distance != 0.0 || boxes.hasMargins();
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     const Box box = boxes[i];
     const double margin = 0.5 * distance + boxes.margin(i);
     const auto reach = [&](double bound) {
-      if (!widens) return 0.0;
+      if (!isWider) return 0.0;
       const double size = std::min(std::abs(bound), std::numeric_limits<double>::max());
       return margin + kSlack * size + kSlack * margin + std::numeric_limits<double>::min();
     };
@@ -246,10 +248,15 @@ bool widens(const Sets& sets, const OverlapOptions& options) noexcept {
 
 bool lieInRuns(const Sets& sets) noexcept { return sets.one ? isRun(sets.first) : areRuns(sets.first, sets.second); }
 
+/// Whether bounds are compared as they lie in memory.
+bool areInPlace(const Sets& sets, const OverlapOptions& options) noexcept {
+  return !widens(sets, options) && lieInRuns(sets);
+}
+
 /// Whether findChecked() takes the sets. Boxes of float32 that need copies are read into lanes in less time.
 bool canBeChecked(const Sets& sets, const OverlapOptions& options) noexcept {
   if (std::max(sets.first.size(), sets.second.size()) > kWordBoxes) return false;
-  if (!widens(sets, options) && lieInRuns(sets)) return true;
+  if (areInPlace(sets, options)) return true;
   return (sets.first.isFloat64() || sets.second.isFloat64()) && canBeWidened(sets.first, options.distance) &&
          canBeWidened(sets.second, options.distance);
 }
@@ -271,7 +278,7 @@ void findChecked(const Sets& sets, const OverlapOptions& options, Order order, T
     }
     take({kept.data(), size});
   };
-  if (!widens(sets, options) && lieInRuns(sets)) return findPlain(sets, options, order, check);
+  if (areInPlace(sets, options)) return findPlain(sets, options, order, check);
   WordRows firstRows;
   WordRows secondRows;
   const BoxView first = copyWide(sets.first, options.distance, firstRows);

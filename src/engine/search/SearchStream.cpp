@@ -27,13 +27,18 @@ void Search::stream(const Sets& sets, const OverlapOptions& options, PairVisitor
   const auto give = [&](std::span<const Pair> pairs) {
     for (std::size_t begin = 0; begin < pairs.size(); begin += batchSize) {
       const std::span<const Pair> batch = pairs.subspan(begin, std::min(batchSize, pairs.size() - begin));
+      if (given != 0) checkStop(options.stop);
       given += batch.size();
       checkLimit(options.maxPairs, given);
       visitor(batch);
     }
   };
   if (pairsOf(sets) <= kMostFew * kMostFew && areFew(sets, options)) {
-    give(findAmongFew(sets, options, options.order));
+    const std::span<const Pair> pairs = findAmongFew(sets, options, options.order);
+    const OverlapStatistics statistics = m_statistics;
+    forget();  // If the visitor throws, there has been no search.
+    give(pairs);
+    m_statistics = statistics;
     return;
   }
   begin(sets, options);
