@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -91,6 +92,21 @@ TEST(FclShapes, TetrahedraAreSolidsByTheirBoundary) {
   SphereModel outside("outside", {{-1, 1, 1}}, {0.25});
   EXPECT_EQ(examine(two, within).state, ExactState::Contained);
   EXPECT_NEAR(examine(two, outside).distance, 0.75, kClose);
+}
+
+TEST(FclShapes, ATetrahedronThatIsThereTwiceIsThereOnce) {
+  const std::vector<Vec3> points{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {0, 0, 4}, {4, 4, 4}};
+  SphereModel within("within", {{0.6, 0.6, 0.8}}, {0.0});
+  for (const TetrahedronModel::Tetrahedron& again : {TetrahedronModel::Tetrahedron{0, 1, 2, 3}, {3, 0, 2, 1}}) {
+    TetrahedronModel one("one", points, {{0, 1, 2, 3}, again});
+    TetrahedronModel two("two", points, {{0, 1, 2, 3}, {1, 2, 4, 3}, again});
+    for (TetrahedronModel* model : {&one, &two}) {
+      const auto pair = examine(within, *model);
+      EXPECT_EQ(pair.state, ExactState::Contained);
+      EXPECT_THAT(pair.depth, ::testing::Optional(::testing::DoubleNear(0.6, kClose)));
+      EXPECT_FALSE(pair.isSecondOpen);
+    }
+  }
 }
 
 TEST(FclShapes, PointsAndLinesTouchAndAreContained) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "allpairs/collision/BoxModel.h"
@@ -70,10 +71,14 @@ double signedVolume(const collision::TetrahedronModel& model, const collision::T
   return ab.cross(pointOf(model, t[2]) - origin).dot(pointOf(model, t[3]) - origin);
 }
 
-/// The faces that only one tetrahedron has.
+/// The faces that only one tetrahedron has, where each is taken once.
 void add(ExactBody& body, const collision::TetrahedronModel& model) {
   std::map<std::array<std::uint32_t, 3>, std::vector<std::array<std::uint32_t, 3>>> faces;
+  std::set<collision::TetrahedronModel::Tetrahedron> taken;
   for (const auto& t : model.tetrahedra()) {
+    collision::TetrahedronModel::Tetrahedron vertices = t;
+    std::sort(vertices.begin(), vertices.end());
+    if (!taken.insert(vertices).second) continue;
     const bool isTurned = signedVolume(model, t) < 0.0;
     for (const auto& [a, b, c] : kFaces) {
       std::array<std::uint32_t, 3> face{t[a], t[isTurned ? c : b], t[isTurned ? b : c]};
