@@ -270,6 +270,8 @@ TEST(FclBodies, NormalsOfWhatTouchesAreThoseOfTheTrianglesElseAlongTheMiddles) {
   LineModel second("second", {{1, 0, 0}, {2, 0, 0}}, {{0, 1}});
   EXPECT_EQ(examine(first, second).state, ExactState::Touching);
   EXPECT_EQ(examine(first, second).normal, (Vec3{-1, 0, 0}));
+  LineModel across("across", {{0.5, -1, 0}, {0.5, 1, 0}}, {{0, 1}});
+  EXPECT_EQ(examine(first, across).normal, (Vec3{0, 0, 1})) << "of the same middle";
 }
 
 TEST(FclBodies, NearlyParallelLinesAreNearestWhereTheyPassEachOther) {

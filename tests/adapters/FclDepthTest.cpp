@@ -27,10 +27,6 @@ using ::testing::Optional;
 /// Nearly the true depth, and never more.
 auto isDepthOf(double depth) { return Optional(AllOf(Ge(0.99 * depth), Le((1.0 + 1e-6) * depth))); }
 
-double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Vec3 plus(const Vec3& a, const Vec3& b, double scale = 1.0) {
-  return {a[0] + scale * b[0], a[1] + scale * b[1], a[2] + scale * b[2]};
-}
 Vec3 cross(const Vec3& a, const Vec3& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }

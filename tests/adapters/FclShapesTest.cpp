@@ -17,6 +17,7 @@
 #include "allpairs/collision/SphereModel.h"
 #include "allpairs/collision/TetrahedronModel.h"
 #include "allpairs/fcl/FclNarrowPhase.h"
+#include "support/Sanitizers.h"
 
 namespace allpairs::test {
 namespace {
@@ -61,6 +62,177 @@ TEST(FclShapes, ASphereOnAMeshIsAsDeepAsItReachesBelowTheSurface) {
   EXPECT_NEAR(examine(deeper, *cube).depth.value_or(0.0), 1.25, kClose);
   EXPECT_EQ(examine(within, *cube).state, ExactState::Contained);
   EXPECT_NEAR(examine(within, *cube).depth.value_or(0.0), 2.75, kClose);
+}
+
+auto isAt(const Vec3& v) {
+  using ::testing::DoubleNear;
+  return ::testing::ElementsAre(DoubleNear(v[0], kClose), DoubleNear(v[1], kClose), DoubleNear(v[2], kClose));
+}
+
+/// Checks what is said of a thick model that reaches into another, either way around.
+void expectDeep(CollisionModel& thick, CollisionModel& other, double depth, const Vec3& deepest, const Vec3& surface,
+                const Vec3& normal, const std::vector<Vec3>& contacts) {
+  const auto pair = examine(thick, other);
+  EXPECT_THAT(pair.depth, ::testing::Optional(::testing::DoubleNear(depth, kClose)));
+  EXPECT_THAT(pair.pointOnFirst, isAt(deepest));
+  EXPECT_THAT(pair.pointOnSecond, isAt(surface));
+  EXPECT_THAT(pair.normal, isAt(normal));
+  const auto swapped = examine(other, thick);
+  EXPECT_EQ(swapped.depth, pair.depth);
+  EXPECT_THAT(swapped.pointOnFirst, isAt(surface));
+  EXPECT_THAT(swapped.pointOnSecond, isAt(deepest));
+  EXPECT_THAT(swapped.normal, isAt(plus({0, 0, 0}, normal, -1.0)));
+  for (const auto& either : {pair, swapped}) {
+    EXPECT_EQ(either.contactCount, contacts.size());
+    ASSERT_EQ(either.contactPoints.size(), contacts.size());
+    for (std::size_t i = 0; i < contacts.size(); ++i) EXPECT_THAT(either.contactPoints[i], isAt(contacts[i]));
+    EXPECT_EQ(isEmpty(either.contactBox), contacts.empty());
+  }
+}
+
+TEST(FclShapes, OfABallThatSinksIntoASolidTheDeepestPointIsItsLowest) {
+  BoxModel box("box", Box{{-5, -5, -10}, {5, 5, 0}});
+  for (const double z : {0.5, 0.01, 0.0, -0.01, -0.5, -0.875}) {
+    SCOPED_TRACE(z);
+    SphereModel round("round", {{0.5, 0.25, z}}, {1.0});
+    expectDeep(round, box, 1.0 - z, {0.5, 0.25, z - 1.0}, {0.5, 0.25, 0}, {0, 0, 1}, {{0.5, 0.25, 0}});
+  }
+  SphereModel within("within", {{0.5, 0.25, -1.5}}, {1.0});
+  expectDeep(within, box, 2.5, {0.5, 0.25, -2.5}, {0.5, 0.25, 0}, {0, 0, 1}, {});
+}
+
+TEST(FclShapes, OfACapsuleThatSinksIntoASolidTheDeepestPointIsItsLowest) {
+  BoxModel box("box", Box{{-5, -5, -10}, {5, 5, 0}});
+  for (const double z : {0.5, 0.0, -0.5, -3.0}) {  // the lower end of the core, of which the other is above
+    SCOPED_TRACE(z);
+    CapsuleModel upright("upright", {{{0.5, 0.25, 2.0}, {0.5, 0.25, z}, 1.0}});
+    expectDeep(upright, box, 1.0 - z, {0.5, 0.25, z - 1.0}, {0.5, 0.25, 0}, {0, 0, 1}, {{0.5, 0.25, 0}});
+  }
+}
+
+TEST(FclShapes, OfACapsuleThatCrossesASheetTheDepthIsFromTheSheetToItsSurface) {
+  TriangleModel sheet("sheet", {{-4, -4, 0}, {4, -4, 0}, {0, 8, 0}}, {{0, 1, 2}});
+  CapsuleModel flat("flat", {{{-1, 0.5, 0}, {1, 0.5, 0}, 0.5}});
+  CapsuleModel slanted("slanted", {{{-1, 0.5, -1}, {1, 0.5, 1}, 0.5}});
+  CapsuleModel upright("upright", {{{0, 0.5, -1}, {0, 0.5, 1}, 0.5}});
+  const double part = std::sqrt(0.5);
+  EXPECT_THAT(examine(flat, sheet).normal, isAt({0, 0, 1}));
+  EXPECT_THAT(examine(slanted, sheet).normal, isAt({-part, 0, part}));
+  EXPECT_NEAR(examine(upright, sheet).normal[2], 0.0, kClose);
+  for (CapsuleModel* capsule : {&flat, &slanted, &upright}) {
+    const auto pair = examine(*capsule, sheet);
+    EXPECT_THAT(pair.depth, ::testing::Optional(0.5));
+    EXPECT_THAT(pair.pointOnFirst, isAt(plus(pair.pointOnSecond, pair.normal, -0.5)));
+    EXPECT_NEAR(pair.pointOnSecond[2], 0.0, kClose);
+    EXPECT_NEAR(dot(pair.normal, pair.normal), 1.0, kClose);
+  }
+}
+
+TEST(FclShapes, BallsAndCapsulesInOnePlaceHaveANormalAllTheSame) {
+  SphereModel round("round", {{1, 2, 3}}, {1.0});
+  SphereModel larger("larger", {{1, 2, 3}}, {3.0});
+  const auto pair = examine(round, larger);
+  EXPECT_THAT(pair.depth, ::testing::Optional(4.0));
+  EXPECT_EQ(pair.normal, (Vec3{0, 0, 1}));
+  EXPECT_EQ(pair.pointOnFirst, (Vec3{1, 2, 2}));
+  EXPECT_EQ(pair.pointOnSecond, (Vec3{1, 2, 6}));
+  CapsuleModel along("along", {{{-5, 2, 3}, {7, 2, 3}, 0.5}});
+  const auto through = examine(round, along);
+  EXPECT_THAT(through.depth, ::testing::Optional(1.5));
+  EXPECT_NEAR(through.normal[0], 0.0, kClose);
+  EXPECT_NEAR(dot(through.normal, through.normal), 1.0, kClose);
+  CapsuleModel across("across", {{{1, -6, 3}, {1, 12, 3}, 0.25}});
+  EXPECT_THAT(examine(along, across).normal, isAt({0, 0, 1}));
+}
+
+TEST(FclShapes, WhatLiesFreeInABallOrACapsuleHasNoContactWithIt) {
+  SphereModel around("around", {{0, 0, 0}}, {5.0});
+  SphereModel free("free", {{0, 0, 1}}, {1.0});
+  expectDeep(free, around, 5.0, {0, 0, 0}, {0, 0, 5}, {0, 0, 1}, {});
+  CapsuleModel capsule("capsule", {{{-9, 0, 0}, {9, 0, 0}, 5.0}});
+  expectDeep(free, capsule, 5.0, {0, 0, 0}, {0, 0, 5}, {0, 0, 1}, {});
+  BoxModel box("box", Box{{-1, -1, 1}, {1, 1, 2}});
+  EXPECT_EQ(examine(box, around).state, ExactState::Contained);
+  EXPECT_EQ(examine(box, around).contactCount, 0U);
+  EXPECT_EQ(examine(around, box).contactCount, 0U);
+  EXPECT_TRUE(examine(around, box).contactPoints.empty());
+  SphereModel touching("touching", {{0, 0, 4}}, {1.0});
+  expectDeep(touching, around, 2.0, {0, 0, 3}, {0, 0, 5}, {0, 0, 1}, {{0, 0, 5}});
+}
+
+TEST(FclShapes, TheContactOfTwoBallsIsTheMiddleOfTheCircleInWhichTheyMeet) {
+  SphereModel first("first", {{0, 0, 0}}, {5.0});
+  SphereModel second("second", {{0, 0, 4}}, {3.0});  // in the circle of radius 3 around (0, 0, 4)
+  const auto pair = examine(first, second);
+  ASSERT_EQ(pair.contactPoints.size(), 1U);
+  EXPECT_THAT(pair.contactPoints.front(), isAt({0, 0, 4}));
+  EXPECT_THAT(examine(second, first).contactPoints.front(), isAt({0, 0, 4}));
+}
+
+double distanceTo(const Capsule& core, const Vec3& point) {
+  const Vec3 along = plus(core.end, core.begin, -1.0);
+  const double squared = dot(along, along);
+  const double at = squared > 0.0 ? std::clamp(dot(plus(point, core.begin, -1.0), along) / squared, 0.0, 1.0) : 0.0;
+  const Vec3 way = plus(point, plus(core.begin, along, at), -1.0);
+  return std::sqrt(dot(way, way));
+}
+
+/// On a grid, where cores often meet, lie in a line, or are parallel.
+TEST(FclShapes, ThePointsOfBallsAndCapsulesLieOnTheirSurfacesAsFarApartAsTheDepth) {
+  constexpr std::uint32_t kSeed = 11;
+  std::mt19937 random(kSeed);
+  std::uniform_int_distribution<int> grid(-2, 2);
+  std::uniform_real_distribution<double> radius(0.25, 3.0);
+  const auto place = [&] { return Vec3{double(grid(random)), double(grid(random)), double(grid(random))}; };
+  const auto isInOrOn = [](const Capsule& capsule, const Vec3& point) {
+    return distanceTo(capsule, point) <= capsule.radius + 1e-9;
+  };
+  int deep = 0;
+  for (int i = 0; i < repeats(2000); ++i) {
+    SCOPED_TRACE(::testing::Message() << "seed " << kSeed << ", " << i);
+    Capsule a{place(), place(), radius(random)};
+    Capsule b{place(), place(), radius(random)};
+    if (i % 3 == 0) a.end = a.begin;
+    if (i % 4 == 0) b.end = b.begin;
+    CapsuleModel first("first", {a});
+    CapsuleModel second("second", {b});
+    const auto pair = examine(first, second);
+    for (const Vec3& point : pair.contactPoints) EXPECT_TRUE(isInOrOn(a, point) && isInOrOn(b, point));
+    if (!pair.depth || *pair.depth == 0.0) continue;
+    ++deep;
+    EXPECT_NEAR(dot(pair.normal, pair.normal), 1.0, kClose);
+    EXPECT_NEAR(distanceTo(a, pair.pointOnFirst), a.radius, 1e-9);
+    EXPECT_NEAR(distanceTo(b, pair.pointOnSecond), b.radius, 1e-9);
+    const Vec3 reached = plus(pair.pointOnFirst, pair.normal, *pair.depth);
+    for (std::size_t axis = 0; axis < 3; ++axis) EXPECT_NEAR(reached[axis], pair.pointOnSecond[axis], 1e-9);
+  }
+  EXPECT_GT(deep, repeats(1000));
+}
+
+/// The same of balls and cuboids, with middles on the surface, within and outside.
+TEST(FclShapes, ThePointsOfBallsAndCuboidsLieOnTheirSurfacesAsFarApartAsTheDepth) {
+  constexpr std::uint32_t kSeed = 12;
+  std::mt19937 random(kSeed);
+  std::uniform_int_distribution<int> grid(-3, 3);
+  std::uniform_real_distribution<double> radius(0.25, 2.0);
+  const auto cube = cuboid({-2, -2, -2}, {2, 2, 2});
+  int deep = 0;
+  for (int i = 0; i < repeats(400); ++i) {
+    SCOPED_TRACE(::testing::Message() << "seed " << kSeed << ", " << i);
+    const Vec3 middle{double(grid(random)), double(grid(random)), double(grid(random))};
+    SphereModel round("round", {middle}, {radius(random)});
+    const auto pair = examine(round, *cube);
+    const auto farthest = [](const Vec3& p) { return std::max({std::abs(p[0]), std::abs(p[1]), std::abs(p[2])}); };
+    for (const Vec3& point : pair.contactPoints) EXPECT_NEAR(farthest(point), 2.0, 1e-9);
+    if (!pair.depth || *pair.depth == 0.0) continue;
+    ++deep;
+    EXPECT_NEAR(dot(pair.normal, pair.normal), 1.0, kClose);
+    EXPECT_NEAR(distanceTo({middle, middle, 0.0}, pair.pointOnFirst), round.radii()[0], 1e-9);
+    EXPECT_NEAR(farthest(pair.pointOnSecond), 2.0, 1e-9);
+    const Vec3 reached = plus(pair.pointOnFirst, pair.normal, *pair.depth);
+    for (std::size_t axis = 0; axis < 3; ++axis) EXPECT_NEAR(reached[axis], pair.pointOnSecond[axis], 1e-9);
+  }
+  EXPECT_GT(deep, repeats(100));
 }
 
 TEST(FclShapes, CapsulesAreThickSegments) {

@@ -15,6 +15,7 @@
 #include "Flush.h"
 #include "Nearest.h"
 #include "PointTriangle.h"
+#include "Thick.h"
 #include "TriangleMeeting.h"
 
 namespace allpairs::exact {
@@ -87,15 +88,25 @@ class Look {
   void measure() {
     const Nearest points = nearest(m_first, m_second);
     m_coreDistance = points.distance;
-    m_meeting.normal = directionOf(points.onFirst - points.onSecond);
+    const bool coresMeet = m_radius > 0.0 && m_coreDistance <= m_tolerance;
+    m_meeting.normal = coresMeet ? normalWhereCoresMeet(m_first, m_second, points.onFirst, m_tolerance)
+                                 : directionOf(points.onFirst - points.onSecond);
     m_meeting.onFirst = points.onFirst - m_first.radius() * m_meeting.normal;
     m_meeting.onSecond = points.onSecond + m_second.radius() * m_meeting.normal;
     m_meeting.distance = std::max(0.0, m_coreDistance - m_radius);
-    m_meeting.surfacesMeet = m_coreDistance <= m_radius + m_tolerance;
+    m_contact = m_radius > 0.0 ? contactOfThick(m_first, m_second, points, m_tolerance)
+                               : Point((points.onFirst + points.onSecond) / 2.0);
+    m_isInReach = m_coreDistance <= m_radius + m_tolerance;
+    m_meeting.surfacesMeet = m_isInReach && !isFree(m_first, m_second) && !isFree(m_second, m_first);
     m_meeting.hasVolume = m_radius > 0.0 || m_first.volume() != Volume::None || m_second.volume() != Volume::None;
   }
 
-  /// The triangles that meet, and a point of each pair of them; of thick parts the one where they are nearest.
+  /// Whether one lies in a ball or a capsule, away from the surface of that: by so much that they share volume.
+  [[nodiscard]] bool isFree(const ExactPart& inner, const ExactPart& outer) const {
+    return outer.radius() > 0.0 && isWithin(outer, inner, -2.0 * m_tolerance);
+  }
+
+  /// The triangles that meet, and a point of each pair of them; of thick parts one.
   void findTriangles() {
     if (!m_meeting.surfacesMeet) return;
     if (m_radius == 0.0) m_pairs = meetingTriangles(m_first, m_second);
@@ -109,9 +120,7 @@ class Look {
       if (!m_first.hasArea() || !m_second.hasArea()) m_passing = std::max(m_passing, meeting->passing);
     }
     m_meeting.isCrossed = m_crossing > m_tolerance || crossesAlongEdges();
-    if (m_meeting.contactPoints.empty()) {
-      m_meeting.contactPoints.push_back((m_meeting.onFirst + m_meeting.onSecond) / 2.0);
-    }
+    if (m_meeting.contactPoints.empty()) m_meeting.contactPoints.push_back(m_contact);
     m_meeting.contactCount = std::max<std::size_t>(m_pairs.size(), 1);
   }
 
@@ -178,7 +187,7 @@ class Look {
     const bool isInside = ofFirst.found || ofSecond.found;
     if (isInside) takeDeeper(ofFirst, ofSecond);
     if (isInside) lookDeeper(std::max(ofFirst.depth, ofSecond.depth));
-    if (!isInside && m_meeting.surfacesMeet) m_meeting.depth = std::max(0.0, m_radius - m_coreDistance);
+    if (!isInside && m_isInReach) m_meeting.depth = std::max(0.0, m_radius - m_coreDistance);
     m_meeting.isDeep = m_meeting.depth > m_tolerance;
   }
 
@@ -222,13 +231,16 @@ class Look {
     const Deepest& deepest = isFirst ? ofFirst : ofSecond;
     m_meeting.depth = deepest.depth + m_radius;
     if (m_meeting.depth <= m_tolerance) return;
+    if (m_radius > 0.0 && deepest.depth <= m_tolerance) return;  // the core lies on the surface: measured there
     m_meeting.onFirst = isFirst ? deepest.point : deepest.surface;
     m_meeting.onSecond = isFirst ? deepest.surface : deepest.point;
     m_meeting.normal = directionOf(m_meeting.onSecond - m_meeting.onFirst);
+    m_meeting.onFirst -= m_first.radius() * m_meeting.normal;
+    m_meeting.onSecond += m_second.radius() * m_meeting.normal;
   }
 
   /// Surfaces that only meet have no direction between nearest points: of the normals of the triangles that meet, the
-  /// one along which the two parts share least; else the line between their middles.
+  /// one along which the two parts share least; else the line between their middles; else z.
   void guessNormal() {
     double least = std::numeric_limits<double>::infinity();
     for (const Point& normal : normalsOfMeeting()) {
@@ -240,6 +252,7 @@ class Look {
       }
     }
     if (m_meeting.normal.isZero()) m_meeting.normal = directionOf(middleOf(m_first.box()) - middleOf(m_second.box()));
+    if (m_meeting.normal.isZero()) m_meeting.normal = Point::UnitZ();
   }
 
   [[nodiscard]] std::vector<Point> normalsOfMeeting() const {
@@ -268,6 +281,8 @@ class Look {
   double m_passing = 0.0;   ///< How far segments of one pass through triangles of the other.
   double m_crossing = 0.0;  ///< How far triangles of the two pass through each other.
   double m_coreDistance = 0.0;
+  bool m_isInReach = false;         ///< The cores are no further apart than the radii.
+  Point m_contact = Point::Zero();  ///< Of parts of which no triangles meet.
   bool m_reachesIntoFirst = false;  ///< The second's surface lies in the first, by more than what is as good as on it.
   bool m_reachesIntoSecond = false;
   std::vector<TrianglePair> m_pairs;

@@ -21,7 +21,7 @@ struct Meeting {
   double depth = 0.0;
   Point onFirst = Point::Zero();
   Point onSecond = Point::Zero();
-  Point normal = Point::Zero();  ///< Unit; the way that parts the first from the second. Zero where there is none.
+  Point normal = Point::Zero();  ///< Unit; the way that parts the first from the second.
   std::uint64_t contactCount = 0;
   std::vector<Point> contactPoints;                ///< All of them.
   std::vector<std::array<Point, 2>> contactLines;  ///< Where triangles cross, all of them.

@@ -49,22 +49,30 @@ struct ExactPair {
   /// Their Euclidean distance; 0 if they touch.
   double distance = 0.0;
 
-  /// How far the deepest point found of one lies below the other's surface; 0 if they only touch. Empty if depth is
-  /// undefined: for surfaces that enclose no volume, and for duplicates.
+  /// How far the deepest point found of one lies below the other's surface; 0 if they only touch. Of balls and capsules
+  /// the depth of their cores plus the radii, which may be more: of two of them, the radii less the distance of the
+  /// cores. Empty if depth is undefined: for surfaces that enclose no volume, and for duplicates.
   std::optional<double> depth{};
 
-  /// Apart: the nearest point of each. Else: the deepest point, and the point of the other's surface nearest to it.
+  /// Apart: the nearest point of each. Else: the deepest point, and the point of the other's surface nearest to it, as
+  /// far apart as the depth. Of a ball or a capsule it lies on its surface, but where the deepest point of a capsule's
+  /// core is midway between faces that the core passes aslant: then in the capsule.
   collision::Vec3 pointOnFirst{};
   collision::Vec3 pointOnSecond{};
 
   /// A unit vector, away from the second: the direction in which the distance or the depth is measured. Moving the first
-  /// along it by the depth brings the deepest point to the surface; others may then still lie within.
+  /// along it by the depth brings the deepest point to the surface; others may then still lie within. Where many are as
+  /// good, since the cores of balls or capsules meet, it is one of them, of two balls along z. Zero of duplicates and of
+  /// what was not examined.
   collision::Vec3 normal{};
 
   /// The number of pairs of elements (triangles, segments, points, balls) that intersect; 0 where surfaces don't meet.
+  /// A mesh that a ball or a capsule meets is one element.
   std::uint64_t contactCount = 0;
 
-  /// Contact points: one for each intersecting pair of elements, evenly sampled if there are more than the limit.
+  /// Contact points: one for each intersecting pair of elements, evenly sampled if there are more than the limit. Of a
+  /// ball or a capsule: the point of the other's surface nearest to its core; of two of them the middle of the circle in
+  /// which they meet.
   std::vector<collision::Vec3> contactPoints{};
 
   /// Where surfaces cross: a segment for each pair of triangles, evenly sampled if there are more than the limit.
