@@ -19,6 +19,8 @@ void ElementNarrowPhase::beginNarrowPhase() { m_pairs.clear(); }
 void ElementNarrowPhase::addCollisionPair(const CollisionModelPair& pair) {
   Intersection* method = getIntersectionMethod();
   if (method == nullptr) throw InvalidArgument("the narrow phase has no intersection method");
+  if (pair.first == nullptr || pair.second == nullptr)
+    throw InvalidArgument("a pair for the narrow phase has no model");
   CollisionModel* first = pair.first->getLast();
   CollisionModel* second = pair.second->getLast();
   bool swap = false;

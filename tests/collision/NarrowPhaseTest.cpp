@@ -102,6 +102,8 @@ TEST_F(NarrowPhase, AContinuousMethodLooksAtTheWholeStep) {
 TEST_F(NarrowPhase, WhatItCannotUseIsRefused) {
   ElementNarrowPhase withoutMethod;
   EXPECT_THROW(withoutMethod.addCollisionPair({&m_first, &m_second}), InvalidArgument);
+  EXPECT_THROW(m_phase.addCollisionPair({&m_first, nullptr}), InvalidArgument);
+  EXPECT_THROW(m_phase.addCollisionPair({nullptr, &m_second}), InvalidArgument);
   EXPECT_THROW(m_phase.setTimeStep(std::numeric_limits<double>::infinity()), InvalidArgument);
   UserModel broken({{0.0, 0.0, 0.0}, {1.0, std::numeric_limits<double>::quiet_NaN(), 1.0}});
   EXPECT_THROW(m_phase.addCollisionPair({&m_first, &broken}), InvalidBox);

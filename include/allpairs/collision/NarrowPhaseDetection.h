@@ -65,8 +65,8 @@ class NarrowPhaseDetection {
 /// pair of elements once, lower index first. If the method has an intersector for the two models' types, its
 /// canIntersect() is called for each pair.
 ///
-/// Bad input: an element's box with a NaN throws InvalidBox, which names the model; a missing method throws
-///            InvalidArgument.
+/// Bad input: an element's box with a NaN throws InvalidBox, which names the model; a missing method or a
+///            null model throws InvalidArgument.
 /// Cost:      that of allpairs::OverlapSearch on the boxes of the elements, once per pair of models.
 /// Threads:   one step at a time per object; the search runs on the executor.
 /// Memory:    addCollisionPair() that throws, whether std::bad_alloc or an exception of an intersector, leaves the pairs
