@@ -40,9 +40,12 @@ struct ExactOptions {
 /// Geometry:  a mesh whose triangles close (each edge is shared by as many one way as the other, or by an even number
 ///            of them) is a solid, with holes where inner surfaces face inward; any other mesh is a surface without
 ///            volume, of which nothing is guessed: whether it encloses another model is Undecided. Where models stand
-///            now: contact distances and velocities play no part. The depth is never more than the true one, equal to
-///            it where a vertex or a flat face is deepest, and else no less than 0.99 of it, unless that takes more
-///            than 500 measures of each model, or what is measured first is below a millionth of the extent.
+///            now: contact distances and velocities play no part. The depth of meshes and boxes is never more than
+///            the true one, equal to it where a vertex or a flat face is deepest, and else no less than 0.99 of it,
+///            unless that takes more than 500 measures of each model, or what is measured first is below a millionth
+///            of the extent. Of balls and capsules it is that of their cores plus the radii, and may be more: of two,
+///            the radii less the distance of the cores; of one whose core lies in a solid, the core's depth plus the
+///            radius, however far the solid goes on.
 /// Bad input: a null model throws InvalidArgument; options that are negative or NaN too.
 /// Cost:      per pair, a search for where the two meet or are nearest, and for a pair that meets a distance for each
 ///            vertex that lies in the other, and up to 1,000 more. In models of many spheres, capsules or boxes, a
