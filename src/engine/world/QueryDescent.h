@@ -50,44 +50,31 @@ void descend(const QueryTree& tree, const LanesOf& lanesOf, const Take& take) {
   visit(visit, view.depth - 1, 0);
 }
 
-/// Some boxes that descend a hierarchy together, a level at a time and some visits at a time: memory stays small,
-/// and all hits of one box come before those of the next.
-struct QueryDescent {
-  const QueryTree& tree;
-  std::span<const LaneBox> boxes;  ///< At most kTogether.
-
-  /// What some visits of a level find; not initialised.
-  struct Found {
+/// Calls take(number of the box, id) for all candidates of at most kTogether boxes, which descend a level at a time and
+/// some visits at a time: memory stays small, and all hits of one box come before those of the next.
+template <class Take>
+void descendTogether(const QueryTree& tree, std::span<const LaneBox> boxes, const Take& take) {
+  // As deep as there are levels, at most kMaxLevels.
+  const auto visit = [&](const auto& self, std::size_t level, BlockVisits visits) -> void {
+    // What the visits find; not initialised.
     std::array<std::uint32_t, kTogether * kFanOut + kVectorSlack> boxOf;
     std::array<std::uint32_t, kTogether * kFanOut + kVectorSlack> places;
-  };
-
-  /// Calls take(number of the box, id) for all candidate boxes.
-  template <class Take>
-  void run(const Take& take) const {
-    std::array<std::uint32_t, kTogether> boxOf;
-    std::iota(boxOf.begin(), boxOf.end(), 0U);
-    const std::array<std::uint32_t, kTogether> root{};
-    visit(tree.view.depth - 1, {boxes.data(), nullptr, boxOf.data(), root.data(), boxes.size()}, take);
-  }
-
-  /// As deep as there are levels, at most kMaxLevels.
-  // NOLINTNEXTLINE(misc-no-recursion)
-  template <class Take>
-  void visit(std::size_t level, BlockVisits visits, const Take& take) const {
-    Found found;
     if (level == 0) checkStop(tree.stop);
     visits.blocks = tree.view.level[level].blocks;
-    const std::size_t size = tree.kernels.touchingPlaces(visits, found.boxOf.data(), found.places.data());
+    const std::size_t size = tree.kernels.touchingPlaces(visits, boxOf.data(), places.data());
     if (level == 0) {
-      for (std::size_t i = 0; i < size; ++i) take(found.boxOf[i], tree.view.ids[found.places[i]]);
+      for (std::size_t i = 0; i < size; ++i) take(boxOf[i], tree.view.ids[places[i]]);
       return;
     }
     for (std::size_t i = 0; i < size; i += kTogether) {
-      visit(level - 1, {visits.boxes, nullptr, &found.boxOf[i], &found.places[i], std::min(size - i, kTogether)}, take);
+      self(self, level - 1, {visits.boxes, nullptr, &boxOf[i], &places[i], std::min(size - i, kTogether)});
     }
-  }
-};
+  };
+  std::array<std::uint32_t, kTogether> boxOf;
+  std::iota(boxOf.begin(), boxOf.end(), 0U);
+  const std::array<std::uint32_t, kTogether> root{};
+  visit(visit, tree.view.depth - 1, {boxes.data(), nullptr, boxOf.data(), root.data(), boxes.size()});
+}
 
 /// The cheapest of some lanes. Up to four, looking at one after the other takes no longer than a call (query_benchmark).
 inline std::size_t cheapestLane(std::uint32_t bits, const std::array<float, kFanOut>& costs, const Kernels& kernels) {

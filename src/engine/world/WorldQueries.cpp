@@ -221,14 +221,13 @@ bool WorldQueries::canAskTogether() const {
 void WorldQueries::overlapping(const Askers& askers, std::vector<BoxId>& ids) const {
   std::size_t begin = ids.size();
   eachBvh([&](const QueryTree& tree) {
-    const auto take = [&](std::size_t i, BoxId id) {
+    descendTogether(tree, {askers.lanes.data(), askers.count}, [&](std::size_t i, BoxId id) {
       if (!passes(id)) return;
       const bool isCertain = tree.isExact && askers.areExact[i];
       if (!isCertain && !overlap(m_store.box(id), askers.boxes[i], m_store.margin(id))) return;
       ids.push_back(id);
       ++*askers.sizes[i];
-    };
-    QueryDescent{tree, {askers.lanes.data(), askers.count}}.run(take);
+    });
   });
   for (std::size_t i = 0; i < askers.count; ++i) {
     sortIds(std::span(ids).subspan(begin, *askers.sizes[i]));
