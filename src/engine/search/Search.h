@@ -120,7 +120,6 @@ class Search {
 
   NeighborsMemory roomForRows(std::size_t rows, std::size_t indices, const RowRoom* room);
   void writePairsAsRows(const Sets& sets, NeighborRows kind, const RowRoom* room);
-  void writeRowsInParts(std::size_t rows, bool areFull);
 
   /// The pairs once more, by (second, first).
   [[nodiscard]] std::span<const Pair> pairsBySecond(std::size_t boxes);

@@ -10,32 +10,20 @@
 namespace allpairs::engine {
 namespace {
 
-/// Rows, and the pairs of which they have the first box, and of which they have the second.
-struct RowsOfPairs {
-  std::size_t begin;
-  std::size_t end;
-  std::span<const Pair> firsts;   ///< By (first, second).
-  std::span<const Pair> seconds;  ///< By (second, first).
-};
-
-/// Writes the greater partners of each row, of which so many are before.
-void writeHalfRows(const RowsOfPairs& rows, std::size_t before, const NeighborsMemory& to) noexcept {
-  std::size_t row = rows.begin;
-  for (const Pair pair : rows.firsts) {
-    for (; row <= pair.first; ++row) to.offsets[row] = before;
-    to.indices[before++] = pair.second;
-  }
-  for (; row < rows.end; ++row) to.offsets[row] = before;
-}
-
-/// Writes the partners of each row, of which so many are before: those that are less, then those that are greater.
-void writeFullRows(const RowsOfPairs& rows, std::size_t before, const NeighborsMemory& to) noexcept {
-  auto first = rows.firsts.begin();
-  auto second = rows.seconds.begin();
-  for (std::size_t row = rows.begin; row < rows.end; ++row) {
-    to.offsets[row] = before;
-    for (; second != rows.seconds.end() && second->second == row; ++second) to.indices[before++] = second->first;
-    for (; first != rows.firsts.end() && first->first == row; ++first) to.indices[before++] = first->second;
+/// Writes rows [begin, end): the partners of each box that are less, from pairs by (second, first), then those that are
+/// greater, from pairs by (first, second). Without the former these are rows of half the pairs.
+void writeRows(std::size_t begin, std::size_t end, std::span<const Pair> firsts, std::span<const Pair> seconds,
+               const NeighborsMemory& to) noexcept {
+  const auto placeOf = [=](std::span<const Pair> pairs, std::uint32_t Pair::*box) {
+    return std::partition_point(pairs.begin(), pairs.end(), [=](Pair pair) { return pair.*box < begin; });
+  };
+  auto first = placeOf(firsts, &Pair::first);
+  auto second = placeOf(seconds, &Pair::second);
+  auto at = static_cast<std::size_t>(first - firsts.begin() + (second - seconds.begin()));
+  for (std::size_t row = begin; row < end; ++row) {
+    to.offsets[row] = at;
+    for (; second != seconds.end() && second->second == row; ++second) to.indices[at++] = second->first;
+    for (; first != firsts.end() && first->first == row; ++first) to.indices[at++] = first->second;
   }
 }
 
@@ -106,29 +94,15 @@ void Search::writePairsAsRows(const Sets& sets, NeighborRows kind, const RowRoom
   m_rowsFound = roomForRows(rows, (isFull ? 2 : 1) * m_pairs.size(), room);
   m_rowsFound.offsets.back() = m_rowsFound.indices.size();
   if (rows > kPartSize) {
-    writeRowsInParts(rows, isFull);
+    const std::span<const Pair> seconds = isFull ? pairsBySecond(rows) : std::span<const Pair>();
+    runInParts(rows, kPartSize, *m_executor,
+               [&](std::size_t begin, std::size_t end) { writeRows(begin, end, m_pairs, seconds, m_rowsFound); });
   } else if (isFull) {
     writeBothRows(m_pairs, m_rowsFound);
   } else {
-    writeHalfRows({0, rows, m_pairs, {}}, 0, m_rowsFound);
+    writeRows(0, rows, m_pairs, {}, m_rowsFound);
   }
   m_pairs = {};
-}
-
-void Search::writeRowsInParts(std::size_t rows, bool areFull) {
-  const std::span<const Pair> seconds = areFull ? pairsBySecond(rows) : std::span<const Pair>();
-  runInParts(rows, kPartSize, *m_executor, [&](std::size_t begin, std::size_t end) {
-    const auto ofPart = [=](std::span<const Pair> pairs, std::uint32_t Pair::*box) {
-      const auto placeOf = [=](std::size_t row) {
-        return std::partition_point(pairs.begin(), pairs.end(), [=](Pair pair) { return pair.*box < row; });
-      };
-      return std::span(placeOf(begin), placeOf(end));
-    };
-    const RowsOfPairs part{begin, end, ofPart(m_pairs, &Pair::first), ofPart(seconds, &Pair::second)};
-    const auto before =
-        static_cast<std::size_t>(part.firsts.data() - m_pairs.data() + (part.seconds.data() - seconds.data()));
-    areFull ? writeFullRows(part, before, m_rowsFound) : writeHalfRows(part, before, m_rowsFound);
-  });
 }
 
 /// The hierarchy is no longer needed: its memory is that of the copy, if there is enough, and the sort's.
