@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <optional>
 
 #include "allpairs/Executor.h"
 #include "allpairs/StopFlag.h"
+#include "search/WorkingThreads.h"
 
 namespace allpairs::engine {
 
@@ -13,19 +15,23 @@ namespace allpairs::engine {
 /// out by the answer, and a pool may be resized meanwhile. Once a flag is set, tasks throw Stopped.
 class CallExecutor final : public Executor {
  public:
-  /// Begins a call; null is a serial executor.
-  [[nodiscard]] Executor& over(Executor* given, const StopFlag* stop) noexcept {
+  /// Begins a call; null is a serial executor. The threads that run its tasks are counted among those that work, if
+  /// these are given.
+  [[nodiscard]] Executor& over(Executor* given, const StopFlag* stop, WorkingThreads* working = nullptr) noexcept {
     m_other = given != nullptr ? given : &m_serial;
     m_concurrency = std::max<std::size_t>(m_other->concurrency(), 1);
     m_stop = stop;
+    m_working = working;
     return *this;
   }
 
   [[nodiscard]] std::size_t concurrency() const noexcept override { return m_concurrency; }
 
   void run(std::size_t count, FunctionRef<void(std::size_t)> task) override {
-    if (m_stop == nullptr) return m_other->run(count, task);
+    if (m_stop == nullptr && m_working == nullptr) return m_other->run(count, task);
     m_other->run(count, [&](std::size_t i) {
+      std::optional<WorkingThreads::Mark> mark;
+      if (m_working != nullptr) mark.emplace(*m_working);
       checkStop(m_stop);
       task(i);
     });
@@ -36,6 +42,7 @@ class CallExecutor final : public Executor {
   Executor* m_other = nullptr;
   std::size_t m_concurrency = 1;
   const StopFlag* m_stop = nullptr;
+  WorkingThreads* m_working = nullptr;
 };
 
 }  // namespace allpairs::engine

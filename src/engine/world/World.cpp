@@ -11,9 +11,9 @@
 #include "allpairs/Error.h"
 #include "input/Options.h"
 #include "search/SearchState.h"
+#include "search/WorkingThreads.h"
 #include "world/BoxStore.h"
 #include "world/QueryTests.h"
-#include "world/WorkingThreads.h"
 #include "world/WorldQueries.h"
 #include "world/WorldSearch.h"
 
@@ -97,9 +97,7 @@ struct World::State {
   void settle() {
     doOnce(isSettled, [this] {
       inUse.check("World");  // Only a step that has not updated them yet leaves them so.
-      if (options.executor == nullptr) return search.update(store, nullptr);
-      engine::WorkingExecutor executor(working, *options.executor);
-      search.update(store, &executor);
+      search.update(store, &working);
     });
   }
 

@@ -36,7 +36,7 @@ std::size_t dropDoubles(const BoxStore& store, std::span<Pair> pairs) noexcept {
 
 }  // namespace
 
-void WorldSearch::update(BoxStore& store, Executor* on) {
+void WorldSearch::update(BoxStore& store, WorkingThreads* working) {
   const BoxView& boxes = store.set();
   if (store.stale().empty() && m_forest.isWhole()) return;
   OverlapOptions lanes;
@@ -44,7 +44,7 @@ void WorldSearch::update(BoxStore& store, Executor* on) {
   lanes.distance = std::max(0.0, m_options.distance);
   const BoxReader reader(boxes, lanes, m_kernels);
   CallExecutor call;  // queries make updates, too
-  Executor& executor = call.over(on, m_options.stop);
+  Executor& executor = call.over(m_options.executor, m_options.stop, working);
   m_members.update(store, executor);
   m_rebuilds += m_forest.update(store, m_members, reader, executor);
   store.settle();
@@ -77,7 +77,7 @@ void WorldSearch::findPairs(BoxStore& store, std::atomic<bool>& isUpdated) {
   // Small worlds are searched without hierarchies; but `accept` may ask queries.
   const bool joinsTrees = !m_large.empty() || (!m_partly.empty() && !m_small.takesChanged());
   if (joinsTrees || m_options.accept) {
-    update(store, m_options.executor);
+    update(store);
     isUpdated.store(true, std::memory_order_release);
   }
   m_statistics.boxTests = 0;

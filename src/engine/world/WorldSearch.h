@@ -33,8 +33,9 @@ class WorldSearch {
   WorldSearch(std::pmr::memory_resource* memory, const WorldOptions& options, const Kernels& kernels)
       : m_memory(memory), m_options(options), m_kernels(kernels) {}
 
-  /// Updates the hierarchies from the store, with tasks on an executor, or null for the calling thread.
-  void update(BoxStore& store, Executor* on);
+  /// Updates the hierarchies from the store, with tasks whose threads are counted among those that work, if these are
+  /// given.
+  void update(BoxStore& store, WorkingThreads* working = nullptr);
 
   /// A step: finds the current pairs, and says from when on queries may be asked, if it updates the hierarchies.
   void findPairs(BoxStore& store, std::atomic<bool>& isUpdated);

@@ -2,11 +2,8 @@
 #pragma once
 
 #include <atomic>
-#include <cstddef>
 #include <mutex>
 #include <thread>
-
-#include "allpairs/Executor.h"
 
 namespace allpairs::engine {
 
@@ -57,25 +54,6 @@ class WorkingThreads {
  private:
   std::mutex m_mutex;
   std::atomic<Mark*> m_first = nullptr;  ///< Written under the mutex.
-};
-
-/// Runs tasks on another executor, and counts the threads that do among those that work.
-class WorkingExecutor final : public Executor {
- public:
-  WorkingExecutor(WorkingThreads& threads, Executor& other) : m_threads(threads), m_other(other) {}
-
-  [[nodiscard]] std::size_t concurrency() const noexcept override { return m_other.concurrency(); }
-
-  void run(std::size_t count, FunctionRef<void(std::size_t)> task) override {
-    m_other.run(count, [&](std::size_t i) {
-      const WorkingThreads::Mark mark(m_threads);
-      task(i);
-    });
-  }
-
- private:
-  WorkingThreads& m_threads;
-  Executor& m_other;
 };
 
 }  // namespace allpairs::engine
