@@ -35,24 +35,36 @@ void checkValue(const char* name, Enum value, Enum last) {
 
 void checkRows(NeighborRows rows) { checkValue("kind of rows", rows, NeighborRows::Half); }
 
-void checkOptions(const Sets& sets, const OverlapOptions& options) {
-  if (!isDistance(options.distance)) throw InvalidArgument("the distance is NaN or -infinity");
-  checkValue("order", options.order, Order::Unordered);
+void checkDistance(double distance) {
+  if (!isDistance(distance)) throw InvalidArgument("the distance is NaN or -infinity");
+}
+
+void checkOrder(Order order) { checkValue("order", order, Order::Unordered); }
+
+void checkSettings(const OverlapOptions& options) {
+  checkDistance(options.distance);
+  checkOrder(options.order);
   checkValue("strategy", options.strategy, Strategy::Bvh);
   if (options.region) checkRegion(*options.region);
-  checkBits(options.filter.first, sets.first.size());
-  if (!sets.one) {
-    checkBits(options.filter.second, sets.second.size());
-  } else if (!isEmpty(options.filter.second)) {
+}
+
+void checkOneSet(const Filter& filter) {
+  if (!isEmpty(filter.second)) {
     throw InvalidArgument("filter.second is for a search between two sets; this one has one");
   }
 }
 
-const Kernels& chooseKernels(const OverlapOptions& options) {
-  if (const Kernels* kernels = findKernels(options.instructionSet)) return *kernels;
+void checkOptions(const Sets& sets, const OverlapOptions& options) {
+  checkSettings(options);
+  checkBits(options.filter.first, sets.first.size());
+  sets.one ? checkOneSet(options.filter) : checkBits(options.filter.second, sets.second.size());
+}
+
+const Kernels& chooseKernels(std::string_view instructionSet) {
+  if (const Kernels* kernels = findKernels(instructionSet)) return *kernels;
   std::string known;
   for (const std::string_view name : kernelNames()) known += (known.empty() ? "" : ", ") + std::string(name);
-  throw InvalidArgument("no instruction set '" + std::string(options.instructionSet) + "' here; there are: " + known);
+  throw InvalidArgument("no instruction set '" + std::string(instructionSet) + "' here; there are: " + known);
 }
 
 }  // namespace allpairs::engine

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <string_view>
+
 #include "allpairs/BoxView.h"
 #include "allpairs/Neighbors.h"
 #include "allpairs/OverlapOptions.h"
@@ -34,10 +36,16 @@ struct Sets {
 /// Throws InvalidArgument, with a message that names the setting, if options are invalid for these sets.
 void checkOptions(const Sets& sets, const OverlapOptions& options);
 
+// The same for some of them:
+void checkSettings(const OverlapOptions& options);  ///< Those that any sets may have: all but the filter.
+void checkDistance(double distance);
+void checkOrder(Order order);
+void checkOneSet(const Filter& filter);  ///< A filter for one set has no values for a second.
+
 /// The same for the rows of neighbors.
 void checkRows(NeighborRows rows);
 
-/// The kernels that the options select; throws InvalidArgument for an unavailable instruction set.
-[[nodiscard]] const Kernels& chooseKernels(const OverlapOptions& options);
+/// The kernels for an instruction set, or the best for an empty name; throws InvalidArgument if it is not available.
+[[nodiscard]] const Kernels& chooseKernels(std::string_view instructionSet);
 
 }  // namespace allpairs::engine

@@ -149,7 +149,7 @@ bool areByFew(const Sets& sets, Order order) { return (order == Order::BySecond)
 template <class T>
 OverlapStatistics find(const Sets& sets, const OverlapOptions& options, Order order,
                        FunctionRef<void(std::span<const Pair>)> take) {
-  const Kernels& kernels = chooseKernels(options);
+  const Kernels& kernels = chooseKernels(options.instructionSet);
   const bool fewSecond = isFewSecond(sets);
   const BoxRun<T> run = runOf<T>(fewSecond ? sets.second : sets.first);
   const BoxRun<T> many = runOf<T>(fewSecond ? sets.first : sets.second);

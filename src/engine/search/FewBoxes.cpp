@@ -129,7 +129,7 @@ bool canBeTested(const Sets& sets, const OverlapOptions& options) noexcept {
 /// The pairs that overlap, whatever the options but the instruction set and the stop flag say.
 template <class T>
 void findPlain(const Sets& sets, const OverlapOptions& options, Order order, TakePairs take) {
-  const Kernels* const kernels = canBeTested(sets, options) ? nullptr : &chooseKernels(options);
+  const Kernels* const kernels = canBeTested(sets, options) ? nullptr : &chooseKernels(options.instructionSet);
   if (pairsOf(sets) == 0) return;
   checkStop(options.stop);
   if (kernels == nullptr) {
@@ -289,7 +289,7 @@ void findChecked(const Sets& sets, const OverlapOptions& options, Order order, T
 
 OverlapStatistics findInTiles(const Sets& sets, const OverlapOptions& options, Order order, TakePairs take) {
   checkStop(options.stop);
-  const Kernels& kernels = chooseKernels(options);
+  const Kernels& kernels = chooseKernels(options.instructionSet);
   PairTest test = PairTest::of(sets, options);
   const Readers readers = Readers::of(sets, options, kernels);
   LaneTile columns;

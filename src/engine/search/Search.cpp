@@ -142,7 +142,7 @@ void Search::forget() noexcept {
 
 void Search::begin(const Sets& sets, const OverlapOptions& options) {
   checkOptions(sets, options);
-  m_kernels = &chooseKernels(options);
+  m_kernels = &chooseKernels(options.instructionSet);
   m_executor = &m_callExecutor.over(options.executor, options.stop);
   forget();
 }

@@ -133,15 +133,12 @@ struct World::State {
 };
 
 World::World(WorldOptions options) {
-  OverlapOptions checked;
-  checked.distance = options.distance;
-  checked.order = options.order;
-  checked.instructionSet = options.instructionSet;
-  const BoxView none;
   if (options.order == Order::Unordered)
     throw InvalidArgument("the lists of a world are ordered: by first or by second");
-  engine::checkOptions(engine::Sets(none), checked);
-  m_state = std::make_unique<State>(std::move(options), engine::chooseKernels(checked));
+  engine::checkDistance(options.distance);
+  engine::checkOrder(options.order);
+  const engine::Kernels& kernels = engine::chooseKernels(options.instructionSet);
+  m_state = std::make_unique<State>(std::move(options), kernels);
 }
 World::~World() = default;
 World::World(World&&) noexcept = default;

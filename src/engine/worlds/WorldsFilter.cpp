@@ -27,17 +27,6 @@ bool areForOneWorld(const FilterBits& bits, const Worlds& worlds) {
   return (bits.categories.empty() || categories) && (bits.masks.empty() || masks) && (bits.groups.empty() || groups);
 }
 
-/// What remains to be checked once the lengths of the filter's values are known to be right.
-void checkOthers(const Worlds& worlds, const OverlapOptions& options) {
-  OverlapOptions others;
-  others.distance = options.distance;
-  others.region = options.region;
-  others.order = options.order;
-  others.strategy = options.strategy;
-  others.filter.second = options.filter.second;
-  checkOptions(Sets(worlds.boxes()), others);
-}
-
 }  // namespace
 
 bool isForOneWorld(std::span<const std::uint32_t> values, const Worlds& worlds, const char* name) {
@@ -56,7 +45,8 @@ void WorldsFilter::prepare(const Worlds& worlds, const OverlapOptions& options, 
   m_options = &options;
   m_allowed.clear();
   m_ignored.clear();
-  checkOthers(worlds, options);
+  checkSettings(options);
+  checkOneSet(options.filter);
   const FilterBits& bits = options.filter.first;
   const bool isForAll = areForOneWorld(bits, worlds);
   for (const Pair pair : worlds.ignoredPairs()) {

@@ -50,7 +50,7 @@ void WorldsSearcher::begin(const Worlds& worlds, const OverlapOptions& options) 
   m_worlds = &worlds;
   m_options = &options;
   m_statistics = {};
-  m_kernels = &chooseKernels(options);
+  m_kernels = &chooseKernels(options.instructionSet);
   checkStop(options.stop);
   m_executor = &m_callExecutor.over(options.executor, options.stop);
   const BoxView& boxes = worlds.boxes();
