@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "search/FewBesideMany.h"
+#include "search/FewBoxes.h"
 
 #include <algorithm>
 #include <array>
@@ -12,7 +12,6 @@
 #include "input/Parts.h"
 #include "kernels/Kernels.h"
 #include "search/PairSink.h"
-#include "search/PairsOnStack.h"
 
 namespace allpairs::engine {
 namespace {

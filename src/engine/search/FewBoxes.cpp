@@ -17,10 +17,8 @@
 #include "input/Parts.h"
 #include "input/Readers.h"
 #include "kernels/Kernels.h"
-#include "search/FewBesideMany.h"
 #include "search/PairSink.h"
 #include "search/PairTest.h"
-#include "search/PairsOnStack.h"
 
 namespace allpairs::engine {
 namespace {

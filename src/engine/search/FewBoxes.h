@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <span>
 
@@ -29,5 +30,25 @@ OverlapStatistics findFew(const Sets& sets, const OverlapOptions& options, Order
 
 /// Only counts them.
 OverlapStatistics countFew(const Sets& sets, const OverlapOptions& options);
+
+// What these use.
+
+/// Whether findFewBesideMany() takes these sets: a few boxes in one of them, of which only the bounds matter, and so
+/// many in the other that preparing a search of any two sets would take longer than this search.
+[[nodiscard]] bool areFewBesideMany(const Sets& sets, const OverlapOptions& options);
+
+/// Calls take(pairs) with parts of the pairs, in order. Boxes are compared as they lie in the caller's memory.
+OverlapStatistics findFewBesideMany(const Sets& sets, const OverlapOptions& options, Order order,
+                                    FunctionRef<void(std::span<const Pair>)> take);
+
+/// Room for pairs on the stack. Pairs themselves would be set to 0 first, which takes longer than many a search.
+template <std::size_t kSize>
+class PairsOnStack {
+ public:
+  [[nodiscard]] Pair* data() noexcept { return reinterpret_cast<Pair*>(m_bytes.data()); }
+
+ private:
+  alignas(64) std::array<std::byte, kSize * sizeof(Pair)> m_bytes;
+};
 
 }  // namespace allpairs::engine
