@@ -35,10 +35,10 @@ def test_a_masked_number_for_all_boxes_is_refused(name, hidden):
 
 def test_errors_of_files_are_one_line_whatever_their_names(tmp_path):
     boxes = dask.array.zeros((4, 6), chunks=(2, 6))
-    path = bytes(tmp_path) + b"/a\n\x1b\xe9.npy"
+    path = bytes(tmp_path) + "/a\n\x1b\u2028\u2029\x85".encode() + b"\xe9.npy"
     with open(path, "wb") as file:
         np.save(file, np.zeros(5))
-    shown = f"{tmp_path}/a\\x0a\\x1b\\xe9.npy"
+    shown = f"{tmp_path}/a\\x0a\\x1b\\xe2\\x80\\xa8\\xe2\\x80\\xa9\\xc2\\x85\\xe9.npy"
     for call, message in (
         (lambda: allpairs.dask.count(path), "boxes has shape (5,); it takes (n, 6)"),
         (lambda: allpairs.dask.count(boxes, margin=path), "5 numbers, a margin for each of 4 boxes"),
