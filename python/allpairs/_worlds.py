@@ -94,8 +94,11 @@ def _margins(value: npt.ArrayLike | None, boxes: int, worlds: _Division) -> npt.
     """A margin for all boxes, or for each box of all worlds; those of one world, if they are of equal size, are repeated."""
     if value is None or _arguments.is_one(value):
         return value
-    array = _flat("margin", _arguments.array_of("margin", value), worlds.begin)
+    array = _arguments.floats("margin", _flat("margin", _arguments.array_of("margin", value), worlds.begin))
     count = len(worlds.begin) - 1
+    if count == 0 and array.size == worlds.size:  # none of them are left
+        corners = np.zeros((array.size, 3))
+        _arguments.with_margins(_core.Boxes(corners, corners, ""), array)
     return np.tile(array, count) if array.size == worlds.size and array.size * count == boxes else array
 
 
@@ -111,9 +114,9 @@ def _in_world(problem: InvalidBox, size: int | None) -> InvalidBox:
 def _prepared(values: dict[str, Any]) -> tuple[_core.Worlds, _core.Boxes | None, _core.Options]:
     """The worlds, the boxes that they share, if any, and the settings of a search, from the arguments of a function."""
     low, high, worlds = _divided(values["lower"], values["upper"], values["offsets"])
-    margin = _margins(values["margin"], low.shape[0] if low.ndim else 0, worlds)
-    depth = lambda: _arguments.depth_of(values["distance"], [margin])
     try:
+        margin = _margins(values["margin"], low.shape[0] if low.ndim else 0, worlds)
+        depth = lambda: _arguments.depth_of(values["distance"], [margin])
         boxes = _arguments.box_set(low, high, margin, depth, single=True)
     except InvalidBox as problem:
         raise (_in_world(problem, worlds.size) if values["offsets"] is None else problem) from None

@@ -124,6 +124,18 @@ def test_what_is_given_of_one_world_holds_for_any_number_of_worlds(worlds, axes)
                 overlaps_in_worlds(boxes, shared=shared, **wrong)
 
 
+@pytest.mark.parametrize("wrong", [np.nan, -np.inf, 2**53 + 1, 2**70, "x"])
+@pytest.mark.parametrize("axes", [3, 2])
+def test_margins_of_one_world_get_the_same_error_whatever_the_number_of_worlds(wrong, axes):
+    errors = []
+    for worlds in (1, 0, 2):
+        for shared in (None, np.zeros((1, 2 * axes))):
+            with pytest.raises(allpairs.Error, match="margin") as caught:
+                overlaps_in_worlds(np.zeros((worlds, 3, 2 * axes)), margin=[1, wrong, 1], shared=shared)
+            errors.append((caught.type, str(caught.value), getattr(caught.value, "index", None)))
+    assert errors == errors[:1] * 6
+
+
 def test_shared_boxes_are_in_every_world():
     lower, upper, offsets = scene()
     shared = np.hstack(random_boxes(9, seed=7))
