@@ -88,7 +88,7 @@ def bits(name: str, value: int) -> int:
 def number(name: str, value: float) -> float:
     """A single number; what is wrong with its value is for the engine to say."""
     _refuse_masked(name, value)
-    if not isinstance(value, (str, bytes, bytearray)):
+    if not isinstance(value, (str, bytes, bytearray)) and not is_time(value):
         try:
             return float(value)
         except OverflowError:
@@ -143,6 +143,11 @@ def is_one(value: object) -> bool:
     return bool(np.isscalar(value)) or (isinstance(value, np.ndarray) and value.ndim == 0)
 
 
+def is_time(value: object) -> bool:
+    """Whether NumPy has it as a date or as a duration: float() and item() make plain numbers of some units."""
+    return getattr(getattr(value, "dtype", None), "kind", None) in ("m", "M")
+
+
 def array_of(name: str, value: npt.ArrayLike) -> npt.NDArray[Any]:
     """The value as an array."""
     if type(value) is np.ndarray:
@@ -192,7 +197,7 @@ def floats(name: str, value: npt.ArrayLike) -> npt.NDArray[Any]:
     """An array of float32 or float64 in this machine's byte order; other numbers become one of them, exactly. A single
     number is one that number() takes."""
     array = array_of(name, value)
-    if array.ndim == 0 and isinstance(array.item(), (Real, Decimal)):
+    if array.ndim == 0 and not is_time(array) and isinstance(array.item(), (Real, Decimal)):
         return np.array(number(name, array.item()))
     native = array.dtype.newbyteorder("=")
     if native == np.float32 or native == np.float64:
@@ -388,7 +393,7 @@ def labels(name: str, value: npt.ArrayLike, length: int) -> npt.NDArray[np.uint3
     """A filter's array: one number for each box, from an array or from a number for all."""
     if not is_one(value) or _hides(value):  # the latter is refused
         return of_length(name, _uint32(name, value), length)
-    single = value.item() if isinstance(value, (np.generic, np.ndarray)) else value
+    single = value.item() if isinstance(value, (np.generic, np.ndarray)) and not is_time(value) else value
     return np.full(length, bits(name, cast(int, single)), np.uint32)
 
 

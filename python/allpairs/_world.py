@@ -264,7 +264,8 @@ class World(WorldQueries):
 
     def __contains__(self, id: object) -> bool:
         single = id.item() if type(id) is np.ndarray and id.ndim == 0 else id  # no masked one, whose number is hidden
-        number = int(single) if isinstance(single, (int, np.integer)) and not isinstance(single, bool) else -1
+        is_id = isinstance(single, (int, np.integer)) and not isinstance(single, bool) and not _arguments.is_time(id)
+        number = int(single) if is_id else -1
         return 0 <= number < NO_BOX and self._core.contains(number)
 
     def ids(self) -> Ids:

@@ -33,6 +33,16 @@ def test_a_masked_number_for_all_boxes_is_refused(name, hidden):
     assert allpairs.dask.count(boxes, **{name: np.ma.array(5)}) == allpairs.count(boxes.compute(), **{name: 5})
 
 
+@pytest.mark.parametrize("time", [np.timedelta64(5, "ns"), np.datetime64(5, "ns"), np.timedelta64(5, "s")])
+def test_a_date_or_a_duration_for_all_boxes_is_refused(time):
+    boxes = dask.array.zeros((4, 6), chunks=(2, 6))
+    for name, takes in {"margin": "numbers", "group": "integers"}.items():
+        with pytest.raises(allpairs.InvalidArgument, match=rf"^{name} has dtype .*\[n?s\]; it takes {takes}"):
+            allpairs.dask.count(boxes, **{name: time})
+    with pytest.raises(TypeError, match="^distance is .*; it takes a number$"):
+        allpairs.dask.count(boxes, distance=time)
+
+
 def test_errors_of_files_are_one_line_whatever_their_names(tmp_path):
     boxes = dask.array.zeros((4, 6), chunks=(2, 6))
     path = bytes(tmp_path) + "/a\n\x1b\u2028\u2029\x85".encode() + b"\xe9.npy"

@@ -215,6 +215,39 @@ def test_values_of_another_type_are_named_on_one_line(call, message):
     assert "\n" not in str(caught.value)
 
 
+@pytest.mark.parametrize("unit", ["ns", "s", "Y"])  # float() and item() make plain numbers of the first and the last
+@pytest.mark.parametrize("kind", [np.datetime64, np.timedelta64])
+def test_dates_and_durations_are_no_numbers(kind, unit):
+    world = allpairs.World()
+    world.add(np.zeros((10, 6)))
+    worlds = np.zeros((2, 4, 6))
+    for time in (kind(5, unit), np.array(kind(5, unit))):
+        for name, call in {
+            "margin": [
+                lambda: allpairs.overlaps(BOXES, margin=time),
+                lambda: allpairs.overlaps_in_worlds(worlds, margin=time),
+                lambda: world.add(BOXES, margin=time),
+            ],
+            "length": [lambda: world.first_hits([0, 0, 0], [1, 0, 0], time)],
+        }.items():
+            for each in call:
+                with pytest.raises(allpairs.InvalidArgument, match=rf"^{name} has dtype {kind.__name__}\[{unit}\]; it takes"):
+                    each()
+        for name, takes, call in (
+            ("distance", "a number", lambda: allpairs.overlaps(BOXES, distance=time)),
+            ("distance", "a number", lambda: allpairs.World(distance=time)),
+            ("max_margin", "a number", lambda: allpairs.Partition(BOXES, cells=2).cells_of(BOXES, max_margin=time)),
+            ("group", "an integer", lambda: allpairs.overlaps(BOXES, group=time)),
+            ("mask", "an integer", lambda: allpairs.overlaps_in_worlds(worlds, mask=time)),
+            ("static", "an integer", lambda: world.add(BOXES, static=time)),
+            ("category", "an integer", lambda: world.overlapping(BOXES, category=time)),
+        ):
+            with pytest.raises(TypeError, match=rf"^{name} is .*; it takes {takes}$"):
+                call()
+        assert time not in world
+    assert 5 in world and len(world) == 10
+
+
 def test_a_truth_value_of_numpy_counts_as_python_s(recwarn):
     assert allpairs.overlaps(BOXES, threads=np.True_).tolist() == allpairs.overlaps(BOXES, threads=True).tolist()
     assert not recwarn.list
