@@ -188,7 +188,8 @@ def _hides(value: object) -> bool:
 def _has_large_integers(array: npt.NDArray[Any]) -> bool:
     """Whether there are integers beyond those that float64 holds all of; NumPy makes objects of those beyond 64 bits."""
     if array.dtype.kind == "O":
-        return any(isinstance(entry, int) and abs(entry) > _EXACT_INTEGERS for entry in array.flat)
+        are_numbers = all(isinstance(entry, (Real, np.bool_)) for entry in array.flat)
+        return are_numbers and any(isinstance(entry, int) and abs(entry) > _EXACT_INTEGERS for entry in array.flat)
     is_wide = array.dtype.kind in "iu" and array.dtype.itemsize == 8
     return is_wide and bool((array > _EXACT_INTEGERS).any() or (array < -_EXACT_INTEGERS).any())
 

@@ -147,6 +147,8 @@ MESH = {"triangles": [[0, 1, 2]], "vertex_count": 3}
         (lambda: allpairs.overlaps(np.full((4, 6), 2**64)), r"lower has integers beyond 2\*\*53"),
         (lambda: allpairs.overlaps([[0, 0, 0, 1, 1, -(10**20)]]), r"lower has integers beyond 2\*\*53"),
         (lambda: allpairs.overlaps(BOXES, margin=[10**20] * 4), r"margin has integers beyond 2\*\*53"),
+        (lambda: allpairs.overlaps(BOXES, margin=[1.0, np.True_, 10**20, 1]), r"margin has integers beyond 2\*\*53"),
+        (lambda: allpairs.overlaps(BOXES, margin=[1.0, "x", 10**20, 1]), "margin has dtype object; it takes numbers that"),
         (lambda: allpairs.overlaps(BOXES, margin=[None] * 4), "margin has dtype object"),
         (lambda: allpairs.overlaps(BOXES, margin=10**400), "margin is .*, which float64 does not hold"),
         (lambda: allpairs.overlaps(BOXES, margin=1j), "margin has dtype complex128"),
