@@ -13,7 +13,7 @@ from typing import Any, Literal, NamedTuple, TypeVar, Union, cast
 import numpy as np
 import numpy.typing as npt
 
-from . import _core
+from . import _core, _masked
 from ._errors import InvalidArgument, InvalidBox
 
 #: Boxes as one array of shape (n, 6), or as two of shape (n, 3); with 4 and 2 instead of 6 and 3 in the plane.
@@ -58,7 +58,7 @@ def strategy_of(strategy: str) -> _core.Strategy:
 
 
 def integer(name: str, value: int) -> int:
-    _refuse_masked(name, value)
+    _masked.refuse(name, value)
     try:
         return operator.index(value.item() if isinstance(value, np.bool_) else value)  # as of Python's own bool
     except TypeError:
@@ -87,7 +87,7 @@ def bits(name: str, value: int) -> int:
 
 def number(name: str, value: float) -> float:
     """A single number; what is wrong with its value is for the engine to say."""
-    _refuse_masked(name, value)
+    _masked.refuse(name, value)
     if not isinstance(value, (str, bytes, bytearray)) and not is_time(value):
         try:
             return float(value)
@@ -131,7 +131,7 @@ def paths_of(name: str, value: Any) -> list[str]:
 
 def flag(name: str, value: object) -> bool:
     """Whether a value is true, as Python has it; an array of several has no truth."""
-    _refuse_masked(name, value)
+    _masked.refuse(name, value)
     try:
         return bool(value)
     except ValueError:
@@ -152,37 +152,19 @@ def array_of(name: str, value: npt.ArrayLike) -> npt.NDArray[Any]:
     """The value as an array."""
     if type(value) is np.ndarray:
         return value
-    _refuse_masked(name, value)
+    _masked.refuse(name, value)
     is_exchanged = hasattr(value, "__dlpack__") and not hasattr(value, "__array__")  # NumPy takes it for an object
     try:
         array: npt.NDArray[Any] = np.from_dlpack(value) if is_exchanged else np.asarray(value)
-        return array
     except MemoryError:
         raise
     except Exception as error:  # rows of several lengths, or what another library refuses: memory of a GPU, say
+        _masked.refuse(name, value, among_numbers=True)  # of which NumPy makes no integers
         reason = " ".join(str(error).split())
         raise InvalidArgument(f"{name} cannot be read as an array: {reason[:140]}") from error
-
-
-def _refuse_masked(name: str, value: object) -> None:
-    """NumPy would drop the mask, and what it hides would count."""
-    try:
-        hides = _hides(value)
-    except RecursionError:  # a list that holds itself, say
-        raise InvalidArgument(f"{name} cannot be read as an array: it is nested too deeply") from None
-    if hides:
-        raise InvalidArgument(f"{name} has masked entries, which cannot be left out; pass rows without any, or filled() ones")
-
-
-def _hides(value: object) -> bool:
-    """Whether it is a masked array with masked entries, or a list that has one."""
-    if isinstance(value, (list, tuple)):
-        of_numbers = bool(value) and isinstance(value[0], (int, float))  # a row, of which there may be many
-        return not of_numbers and any(_hides(row) for row in value if isinstance(row, (list, tuple, np.ma.MaskedArray)))
-    if not isinstance(value, np.ma.MaskedArray):
-        return False
-    mask = value.mask
-    return bool(mask.any()) if mask.dtype.names is None else any(mask.tobytes())  # of records, one for each field
+    if isinstance(value, (list, tuple)) and _masked.may_be_among(array):
+        _masked.refuse(name, value, among_numbers=True)
+    return array
 
 
 def _has_large_integers(array: npt.NDArray[Any]) -> bool:
@@ -392,7 +374,7 @@ def uint64(name: str, array: npt.NDArray[Any]) -> npt.NDArray[np.uint64]:
 
 def labels(name: str, value: npt.ArrayLike, length: int) -> npt.NDArray[np.uint32]:
     """A filter's array: one number for each box, from an array or from a number for all."""
-    if not is_one(value) or _hides(value):  # the latter is refused
+    if not is_one(value) or _masked.hides(value):  # the latter is refused
         return of_length(name, _uint32(name, value), length)
     single = value.item() if isinstance(value, (np.generic, np.ndarray)) and not is_time(value) else value
     return np.full(length, bits(name, cast(int, single)), np.uint32)

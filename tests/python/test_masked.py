@@ -102,6 +102,40 @@ def test_masked_records_are_told_how_to_become_rows_or_that_they_hide_something(
                 allpairs.overlaps(hidden)
 
 
+ENTRY = np.ma.masked  # which NumPy says that it makes NaN of
+
+
+@pytest.mark.filterwarnings("ignore:Warning. converting a masked element to nan")
+@pytest.mark.parametrize(
+    "name, call",
+    [
+        ("margin", lambda: allpairs.overlaps(BOXES, margin=[1.0, ENTRY, 1.0, 1.0])),
+        ("margin", lambda: allpairs.overlaps(BOXES, margin=(1, 1, HIDDEN, 1))),
+        ("margin", lambda: allpairs.overlaps(BOXES, margin=[10**20, 1, 1, ENTRY])),
+        ("margin", lambda: allpairs.overlaps_in_worlds([BOXES, BOXES], margin=[1.0, ENTRY, 1.0, 1.0])),
+        ("group", lambda: allpairs.overlaps(BOXES, group=[0, ENTRY, 1, 1])),
+        ("group", lambda: allpairs.overlaps(BOXES, group=[0, HIDDEN, 1, 1])),
+        ("static", lambda: allpairs.World().add(BOXES, static=[True, False, np.ma.array(True, mask=True), False])),
+        ("lower", lambda: allpairs.overlaps([[0, 0, 0, 1, 1, 1], [0.0, 0, 0, 1, 1, ENTRY]])),
+        ("lower", lambda: allpairs.overlaps([[0, 0, 0, 1, 1, 1], (0, 0, 0, 1, 1, HIDDEN)])),
+        ("ignore", lambda: allpairs.overlaps(BOXES, ignore=[[0, 1], [1, ENTRY]])),
+        ("region", lambda: allpairs.overlaps(BOXES, region=[0, 0, 0, 1, 1, ENTRY])),
+        ("length", lambda: world().first_hits(BOXES[:2, :3], [1, 0, 0], [1.0, ENTRY])),
+        ("ids", lambda: world().remove([1, ENTRY])),
+    ],
+)
+def test_masked_entries_among_numbers_are_refused_by_name(name, call):
+    with pytest.raises(allpairs.InvalidArgument, match=f"^{name} has masked entries"):
+        call()
+
+
+def test_entries_that_a_mask_leaves_are_numbers_among_numbers():
+    margin = [1.0, np.ma.array(2.0), np.ma.array(3, mask=False), np.nan]
+    with pytest.raises(allpairs.InvalidBox, match="^box 3: its margin is NaN"):
+        allpairs.overlaps(BOXES, margin=margin)
+    assert len(allpairs.overlaps(BOXES, margin=[*margin[:3], 4])) == 6
+
+
 def test_a_masked_array_that_hides_nothing_is_an_array():
     np.testing.assert_array_equal(allpairs.overlaps(np.ma.array(BOXES)), allpairs.overlaps(BOXES))
     np.testing.assert_array_equal(allpairs.overlaps(np.ma.array(BOXES, mask=False)), allpairs.overlaps(BOXES))
