@@ -181,7 +181,10 @@ export function setUpKeys(app, panels, timeline, theme) {
   document.addEventListener("keydown", (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey || byId("help").open) return;
     const inText = event.target.matches("input[type=search], input[type=number], select");
-    if (inText && event.key === "Escape") return event.target.blur();
+    if (inText && event.key === "Escape") {
+      event.preventDefault(); // Chromium would empty the field, and not say so
+      return event.target.blur();
+    }
     if (steerByArrow(app, event) || inText || !(event.key in keys)) return;
     if (event.key === " " && event.target.matches("button, summary")) return;
     event.preventDefault();

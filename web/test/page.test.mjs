@@ -52,6 +52,10 @@ inChromium("the demo: summary, list, search, order, choice and reasons are those
   const matching = result.pairs.filter((pair) => ["hammer", "beech"].every((word) => namesOf(result, pair).some((name) => name.toLowerCase().includes(word))));
   assert.ok(matching.length > 0);
   assert.deepEqual(await rowsOf(page, "pairs-list"), matching.map((pair) => namesOf(result, pair)));
+  await page.keyboard.press("Escape");
+  assert.equal(await page.inputValue("#pairs-search"), "hammer beech", "Escape leaves the field, and what is searched stays");
+  assert.equal(await page.evaluate(() => document.activeElement === document.body), true);
+  assert.deepEqual(await rowsOf(page, "pairs-list"), matching.map((pair) => namesOf(result, pair)));
   await page.fill("#pairs-search", "");
 
   await page.selectOption("#pairs-sort", "volume");
