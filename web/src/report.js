@@ -166,6 +166,7 @@ function start() {
   controls.bcf.addEventListener("click", saveBcf);
   notes.addEventListener("change", ({ guid }) => show(guid));
   show(null);
+  addEventListener("pageshow", () => show(null)); // on the way back browsers fill fields in as they were left
 }
 
 if (rows.length > 0) start();

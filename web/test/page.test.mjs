@@ -207,6 +207,14 @@ inChromium("pairs that --between-inputs leaves out are there from the start, and
   await page.press("#margin-number", "Enter");
   await page.click("#margin-reset");
   assert.equal(await excluded(), 1);
+  await page.fill("#margin-number", "4");
+  await page.press("#margin-number", "Enter");
+  await page.selectOption("#pairs-sort", "name");
+  await page.goto(`file://${write("elsewhere.html", "<!doctype html>")}`);
+  await page.goBack();
+  await page.waitForFunction(() => document.documentElement.dataset.ready);
+  const shown = [await page.inputValue("#margin-number"), await page.inputValue("#pairs-sort"), await excluded()];
+  assert.deepEqual(shown, ["0", "found", 1], "on the way back fields say what is listed");
   assert.deepEqual(page.problems, []);
   await page.close();
 });

@@ -146,6 +146,21 @@ test("clashes of a status are shown, and a later report of the same parts has th
   await page.selectOption(".controls select", "Open");
   assert.equal(await page.locator("figure:visible").count(), count - 1);
   const context = page.context();
+  const card = page.locator("figure").first();
+  await page.goto(`file://${write("elsewhere.html", "<!doctype html>")}`);
+  await page.evaluate(() => { // as another tab does meanwhile
+    const key = Object.keys(localStorage).find((name) => name.startsWith("allpairs-note:"));
+    localStorage[key] = JSON.stringify({ ...JSON.parse(localStorage[key]), status: "Closed", comment: "wait no more" });
+  });
+  await page.goBack();
+  await page.waitForFunction(() => document.documentElement.dataset.ready && document.readyState === "complete");
+  assert.equal(await page.inputValue(".controls select"), "Open", "as the browser fills it in");
+  assert.equal(await page.locator("figure:visible").count(), count - 1);
+  assert.equal((await column(page, "#")).length, count - 1);
+  assert.deepEqual([await card.locator("select").inputValue(), await card.locator("textarea").inputValue()], ["Closed", "wait no more"]);
+  await page.selectOption(".controls select", "Closed");
+  assert.equal(await page.locator("figure:visible").count(), 1);
+  await card.locator("textarea").fill("wait");
   allpairs("report", shapes(), "-o", join(folder, "tuesday"));
   await page.goto(`file://${join(folder, "tuesday/index.html")}`);
   assert.equal(await page.locator("figure textarea").first().inputValue(), "wait");
