@@ -32,6 +32,9 @@ function effort({ statistics, frames, exact }) {
   return `Pairs found in ${seconds(detectSeconds)}${frames.length > 1 ? ` in ${grouped(frames.length)} frames` : ""}: ${grouped(made)} of ${grouped(all)} tests made${saved}${shapes}`;
 }
 
+/** How pairs are found at another distance than the page began with, in the words of methodText() in Inputs.cpp. */
+const methodAt = (method, distance) => method.replace(/^boxes( at most \S+ apart on every axis)?/, `boxes at most ${distance} apart on every axis`).replace(/(, alarm distance )[^,;]+/, `$1${distance}`);
+
 /** How many clash and how bad, then what does not. */
 function exactFacts({ scene, table }) {
   const { exact } = scene;
@@ -69,10 +72,12 @@ function remarks(scene) {
 export function showSummary(app) {
   const { scene } = app;
   byId("title").textContent = scene.title;
-  byId("method").textContent = scene.method;
-  byId("effort").textContent = effort(scene);
+  const { distance } = scene;
   let isToldOfExcluded; // another margin has others
   const update = () => {
+    const isOfProgram = scene.distance === distance; // and not found again by the page
+    byId("method").textContent = isOfProgram ? scene.method : methodAt(scene.method, scene.distance);
+    byId("effort").textContent = isOfProgram ? effort(scene) : "";
     if (isToldOfExcluded !== scene.leavesOutExcluded) fillWith(byId("remarks"), ...remarks(scene));
     isToldOfExcluded = scene.leavesOutExcluded;
     const found = scene.exact ? exactFacts(app) : [fact(scene.hasBodies ? "Pairs of bodies" : "Pairs", grouped(app.counts[kind.pair] + app.counts[kind.self]), "fact-pairs", pairNotes(app))];

@@ -153,6 +153,9 @@ inBoth("the margin slider finds the pairs of detect --distance", async () => {
     page.setDefaultTimeout(30_000);
     await page.click("#tab-pairs"); // without a pair, models are shown first
     const before = await number(page, "#fact-pairs");
+    const told = () => texts(page, "#method, #effort");
+    const [method, effort] = await told();
+    assert.match(effort, /^Pairs found in .* tests made/);
     let different = 0;
     await page.fill("#margin-number", "");
     await page.locator("#margin-number").pressSequentially("1.25e-1");
@@ -162,6 +165,8 @@ inBoth("the margin slider finds the pairs of detect --distance", async () => {
       await page.press("#margin-number", "Enter");
       const result = detect(input, "--distance", String(distance));
       assert.equal(await number(page, "#fact-pairs"), result.pairs.length, `${name} at ${distance}`);
+      const [, methodOfDetect] = allpairs("detect", input, "--distance", String(distance)).match(/^method +(.*)$/m);
+      if (methodOfDetect !== method && distance !== 0) assert.deepEqual(await told(), [methodOfDetect, ""], "and what the search took is not told of another");
       await page.$eval("#pairs-chips", (chips) => chips.querySelectorAll(".excluded[aria-pressed=true]").forEach((chip) => chip.click()));
       const expected = new Set(result.pairs.map(([a, b]) => [result.models[a].name, result.models[b].name].sort().join(" | ")));
       assert.deepEqual(await allPairs(page), expected, `${name} at ${distance}`);
@@ -186,6 +191,7 @@ inBoth("the margin slider finds the pairs of detect --distance", async () => {
     assert.equal(await page.inputValue("#margin-number"), least, "an empty field is no margin");
     await page.click("#margin-reset");
     assert.equal(await number(page, "#fact-pairs"), before);
+    assert.deepEqual(await told(), [method, effort]);
     assert.deepEqual(page.problems, []);
     await page.close();
   }
