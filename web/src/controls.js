@@ -47,9 +47,10 @@ export class Theme {
   }
 }
 
-const upKey = (scene) => `allpairs-up ${scene.title}`;
+const upKey = (scene) => `allpairs-up ${scene.upOfInput} ${scene.title}`;
 
-/** Which axis the reader has turned up before, or else the input says is up: 1 to 3, below 0 for the other way. */
+/** Which axis the reader has turned up where the same one was before, or else the one that the input or --up says: 1 to
+ * 3, below 0 for the other way. */
 export function upOf(scene) {
   const choice = Number(stored(upKey(scene)));
   return [1, 2, 3, scene.up].includes(choice) ? choice : scene.up;

@@ -799,13 +799,18 @@ inBoth("where surfaces cross is drawn, and the block of what boxes share only on
 
 inBoth("what is up is as the input says, and stays as the reader has turned it", async () => {
   const up = async (page) => (await page.textContent("#up-axis")).trim();
-  const scene = await view("upright", [write("up.scn", "<Node gravity='0 -9.81 0'><CollisionPipeline/><DiscreteIntersection/><Node name='a'><MechanicalObject position='0 0 0'/><SphereCollisionModel radius='1'/></Node></Node>")]);
+  const input = write("up.scn", "<Node gravity='0 -9.81 0'><CollisionPipeline/><DiscreteIntersection/><Node name='a'><MechanicalObject position='0 0 0'/><SphereCollisionModel radius='1'/></Node></Node>");
+  const scene = await view("upright", [input]);
   assert.equal(await up(scene), "y up");
   await scene.keyboard.press("u");
   assert.equal(await up(scene), "z up");
   await scene.reload();
   await scene.waitForFunction(() => document.documentElement.dataset.ready);
   assert.equal(await up(scene), "z up");
+  allpairs("view", input, "--up", "x", "-o", join(folder, "upright.html"));
+  await scene.reload();
+  await scene.waitForFunction(() => document.documentElement.dataset.ready);
+  assert.equal(await up(scene), "x up", "as the program was told since");
   assert.deepEqual(scene.problems, []);
   await scene.close();
   const page = await view("upright-x", [write("up.csv", "0,0,0,1,1,1\n"), "--up", "x"]);
