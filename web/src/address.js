@@ -63,15 +63,21 @@ export class Address {
     this.isFollowing = false;
   }
 
-  /** Chooses what the address says; one that says nothing of this page is left alone. */
+  /** Chooses what the address says, as text() says it: without a frame it is the first, without names nothing is chosen.
+   * What is not of this page is left alone. */
   follow() {
-    const parts = new Map(location.hash.slice(1).split("&").map((part) => [part.split("=")[0], part.slice(part.indexOf("=") + 1)]));
-    const frame = Number(parts.get("frame"));
+    const text = location.hash.slice(1);
+    const parts = new Map(text.split("&").map((part) => [part.split("=")[0], part.slice(part.indexOf("=") + 1)]));
+    if (text !== "" && !["frame", "pair", "model"].some((name) => parts.has(name))) return;
     const keys = parts.has("pair") ? parts.get("pair").split(",") : parts.has("model") ? [parts.get("model")] : [];
     const models = keys.map((key) => this.modelOf(key));
+    const areOfPage = models.length <= 2 && !models.includes(-1);
+    const { app } = this;
+    const frame = parts.has("frame") ? Number(parts.get("frame")) : areOfPage ? 0 : app.index;
+    const isOfPage = app.scene.frames[frame] !== undefined;
     this.without(() => {
-      if (parts.has("frame") && Number.isInteger(frame) && this.app.scene.frames[frame] && frame !== this.app.index) this.app.setFrame(frame);
-      if (models.length > 0 && models.length <= 2 && !models.includes(-1)) this.app.choose(models);
+      if (isOfPage && frame !== app.index) app.setFrame(frame);
+      if (areOfPage && (isOfPage || models.length > 0)) app.choose(models);
     });
   }
 }

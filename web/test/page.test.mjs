@@ -534,6 +534,17 @@ inChromium("a pair that is chosen has its row in every frame, whatever comes bef
   assert.equal(await row(), chosen);
   await page.keyboard.press("k");
   assert.equal(await row(), "3,0", "steps go on from there");
+  const follow = (hash) => page.evaluate((text) => new Promise((done) => {
+    addEventListener("hashchange", () => done([document.getElementById("time-frame").textContent, !document.getElementById("details").hidden]), { once: true });
+    location.hash = text;
+  }), hash);
+  assert.deepEqual(await follow("#pair=3,2"), ["Frame 0 of 0 to 3", true], "an address without a frame is of the first");
+  assert.equal(await row(), chosen);
+  assert.deepEqual(await follow("#frame=3"), ["Frame 3 of 0 to 3", false], "and without names chooses nothing");
+  assert.deepEqual(await follow("#frame=1&pair=3,2"), ["Frame 1 of 0 to 3", true]);
+  assert.deepEqual(await follow("#frame=4"), ["Frame 1 of 0 to 3", true], "there is no such frame");
+  assert.deepEqual(await follow("#pair=3,x"), ["Frame 1 of 0 to 3", true], "there is no such model");
+  assert.deepEqual(await follow(""), ["Frame 0 of 0 to 3", false]);
   assert.deepEqual(page.problems, []);
   await page.close();
 });
