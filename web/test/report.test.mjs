@@ -220,8 +220,18 @@ test("a clash that the table has no room for is shown, searched and noted by its
 });
 
 test("a picture opens the page at its pair, though names repeat", { skip }, async () => {
-  const parts = [1, 2, 3].map((i) => write(`same/${i}/bar.obj`, cuboid("bar", [0, 0, 0], [4, 4, i])));
+  const parts = [1, 2, 3].map((i) => write(`same/${i}/bar.obj`, cuboid(`bar_${"x".repeat(80)}`, [0, 0, 0], [4, 4, i])));
   const page = await report("opened", parts);
+  const linesOf = (selector) => page.$$eval(selector, (elements) => elements.map(({ firstChild }) => {
+    const range = document.createRange();
+    range.selectNodeContents(firstChild);
+    return range.getClientRects().length;
+  }));
+  for (const selector of ["thead button", ".state", "td.status"]) {
+    const lines = await linesOf(selector);
+    assert.ok(lines.length >= 3 && lines.every((count) => count === 1), `long names leave other words whole: ${selector} ${lines}`);
+  }
+  assert.ok((await page.$eval("td.comment", (cell) => cell.clientWidth)) >= 150, "and a place for comments");
   const rows = await page.locator("figure").count();
   for (let i = 0; i < rows; ++i) {
     const href = await page.locator("figure a").nth(i).getAttribute("href");
