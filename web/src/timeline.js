@@ -4,8 +4,8 @@
 import { byId, make } from "./dom.js";
 import { counted, grouped } from "./format.js";
 
-/** Of any number of counts, more than a call takes as arguments, too; at least 1. */
-const mostOf = (counts) => counts.reduce((most, count) => Math.max(most, count), 1);
+/** Of any number of counts, more than a call takes as arguments, too. */
+const mostOf = (counts) => counts.reduce((most, count) => Math.max(most, count), 0);
 
 const svg = "http://www.w3.org/2000/svg";
 
@@ -36,7 +36,7 @@ export class Timeline {
   drawCounts() {
     const counts = this.app.scene.frames.map((frame) => frame.pairs.length / 2);
     const most = mostOf(counts);
-    const points = counts.map((count, i) => `${i},${(1 - count / most) * 0.92 + 0.04}`);
+    const points = counts.map((count, i) => `${i},${(1 - count / Math.max(1, most)) * 0.92 + 0.04}`);
     const chart = byId("time-chart");
     chart.setAttribute("viewBox", `0 0 ${this.count - 1} 1`);
     const area = document.createElementNS(svg, "polygon");
@@ -51,7 +51,7 @@ export class Timeline {
   /** Where pairs begin, above, and where they end, below: a stroke at each frame, as high as there are many. */
   drawMarks() {
     const { began, ended } = this.app.scene;
-    const most = Math.max(mostOf(began.subarray(1)), mostOf(ended)); // in the first frame all begin
+    const most = Math.max(1, mostOf(began.subarray(1)), mostOf(ended)); // in the first frame all begin
     const stroke = (count, frame, from, to) => (count === 0 ? "" : `M${frame},${from}L${frame},${from + (to - from) * (0.25 + (0.75 * Math.min(count, most)) / most)}`);
     const strokes = (counts, from, to) => Array.from(counts, (count, frame) => stroke(count, frame, from, to)).join("");
     const makePath = (className, data) => {

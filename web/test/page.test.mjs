@@ -606,8 +606,13 @@ inChromium("lines show for a moment which pairs began and ended", async () => {
   await page.keyboard.press(".");
   assert.equal(toNumber(await page.textContent("#time-ended b")), -1);
   assert.ok(![without, began].includes(await drawn(page)));
+  assert.equal(await page.textContent("#time-most"), "at most 1 pair");
   assert.deepEqual(page.problems, []);
   await page.close();
+  const none = await view("never", [write("never.npy", npy([2, 2, 6], [0, 1].flatMap((t) => [t, 0, 0, 1 + t, 1, 1, 5, 0, 0, 6, 1, 1])))]);
+  assert.equal(await none.textContent("#time-most"), "at most 0 pairs");
+  assert.deepEqual(none.problems, []);
+  await none.close();
 });
 
 inBoth("a frame that is chosen while a sequence plays is where it goes on", async () => {
