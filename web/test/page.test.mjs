@@ -834,6 +834,15 @@ inBoth("what is up is as the input says, and stays as the reader has turned it",
   await page.close();
 });
 
+inChromium("without WebGL there are lists, and no buttons of the picture", async () => {
+  const init = () => (HTMLCanvasElement.prototype.getContext = () => null);
+  const page = await view("no-webgl", [write("no-webgl.csv", "0,0,0,2,2,2\n1,1,1,3,3,3\n")], { init });
+  assert.match(await page.textContent("#no-picture"), /^No picture/);
+  assert.equal(await number(page, "#fact-pairs"), 1);
+  assert.deepEqual(await page.$$eval(".toolbar button", (buttons) => buttons.filter((one) => one.checkVisibility()).map((one) => one.id)), ["theme", "help-button"]);
+  await page.close();
+});
+
 inChromium("the report shows a picture of each pair", async () => {
   allpairs("report", demo, "--boxes", "--group", "none", "-o", join(folder, "report"));
   const page = await open(join(folder, "report/index.html"));
