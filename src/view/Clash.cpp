@@ -35,12 +35,9 @@ double gapOf(const Clash& clash) {
   return std::max(0.0, -*std::min_element(clash.overlap.begin(), clash.overlap.end()));
 }
 
-/// What touches itself comes last: its boxes always share all.
+/// Of shapes as worstFirst() has them. Of boxes what touches itself comes last: its boxes always share all.
 bool comesBefore(const Clash& a, const Clash& b) {
-  if (a.exact != nullptr && b.exact != nullptr) {
-    if (isWorse(*a.exact, *b.exact)) return true;
-    if (isWorse(*b.exact, *a.exact)) return false;
-  }
+  if (a.exact != nullptr && b.exact != nullptr) return isWorse(*a.exact, *b.exact);
   if (a.isSelf() != b.isSelf()) return b.isSelf();
   if (a.volume > b.volume || b.volume > a.volume) return a.volume > b.volume;
   return gapOf(a) < gapOf(b);
