@@ -121,13 +121,6 @@ ExactCounts countRows(const ViewScene& scene) {
   return counts;
 }
 
-/// What the body of a model is known by.
-std::string identityOf(const ViewScene& scene, std::uint32_t model) {
-  if (!scene.bodies.empty()) return scene.bodyIdentities[scene.bodies[model]];
-  if (!scene.identities.empty()) return scene.identities[model];
-  return scene.title + '\n' + scene.name(model) + '\n' + std::to_string(model);
-}
-
 /// Whichever of the two comes first, and whichever pair of their parts is the worst.
 std::string guidOfRow(const ViewScene& scene, const Clash& clash) {
   std::vector<std::string> identities{identityOf(scene, clash.first), identityOf(scene, clash.second)};
@@ -148,6 +141,12 @@ std::vector<Clash> rowsOf(const ViewScene& scene, std::vector<Clash> pairs) {
 }
 
 }  // namespace
+
+std::string identityOf(const ViewScene& scene, std::uint32_t model) {
+  if (!scene.bodies.empty()) return scene.bodyIdentities[scene.bodies[model]];
+  if (!scene.identities.empty()) return scene.identities[model];
+  return scene.title + '\n' + scene.name(model) + '\n' + std::to_string(model);
+}
 
 Clash clashOf(const ViewScene& scene, std::size_t index) {
   const Pair& pair = scene.frames.front().pairs[index];

@@ -70,6 +70,9 @@ struct Clash {
 /// "A and B", or "A with itself".
 [[nodiscard]] std::string titleOf(const ViewScene& scene, const Clash& clash);
 
+/// What a model is known by in reports to come: by its body where it holds several.
+[[nodiscard]] std::string identityOf(const ViewScene& scene, std::uint32_t model);
+
 /// A number that identifies texts, in the form of a UUID: 8-4-4-4-12 hexadecimal digits.
 [[nodiscard]] std::string guidOf(const std::vector<std::string>& texts);
 

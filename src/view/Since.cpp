@@ -184,11 +184,11 @@ bool isOfAnotherFolder(const std::string& file, const std::array<EarlierPlace, 2
 }
 
 /// Whether a row of now may be the earlier one that has its GUID. That one may have kept the GUID of a file of the same
-/// name, which is known by other folders now; what has a GlobalId is known by it, whatever its file.
+/// name, which is known by other folders now; what is known by its GlobalId is the same, whatever its file.
 bool mayBeSame(const ViewScene& scene, const EarlierClash& earlier, const Clash& clash) {
   const auto mayBe = [&](std::uint32_t model) {
     const bool hasId = !scene.ids.empty() && !scene.ids[model].empty();
-    return hasId || !isOfAnotherFolder(placeOf(scene, model).file, earlier.places);
+    return (hasId && identityOf(scene, model) == scene.ids[model]) || !isOfAnotherFolder(placeOf(scene, model).file, earlier.places);
   };
   return scene.files.empty() || (mayBe(clash.first) && mayBe(clash.second));
 }

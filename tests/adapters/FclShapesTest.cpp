@@ -209,6 +209,46 @@ TEST(FclShapes, ThePointsOfBallsAndCapsulesLieOnTheirSurfacesAsFarApartAsTheDept
   EXPECT_GT(deep, repeats(1000));
 }
 
+/// Of lines along cores, whose direction is the core's but for rounding.
+TEST(FclShapes, ThePointsOfCapsulesLieOnTheirSurfacesHoweverLargeTheyAre) {
+  constexpr std::uint32_t kSeed = 13;
+  std::mt19937 random(kSeed);
+  std::uniform_int_distribution<int> grid(-3, 3);
+  for (const double scale : {1e-6, 1.0, 1e8}) {
+    const auto place = [&] {
+      return Vec3{scale * 0.9 * grid(random), scale * 0.7 * grid(random), scale * 0.3 * grid(random)};
+    };
+    int deep = 0;
+    for (int i = 0; i < repeats(400); ++i) {
+      SCOPED_TRACE(::testing::Message() << "seed " << kSeed << ", " << i << ", scale " << scale);
+      Capsule core{place(), place(), 0.2 * scale * (1 + i % 5)};
+      const Vec3 way = plus(core.end, core.begin, -1.0);
+      if (way == Vec3{0, 0, 0}) core.end[0] += scale;
+      CapsuleModel round("round", {core});
+      LineModel line("line",
+                     {plus(core.begin, way, 0.1 * (i % 10) - 0.5), plus(core.begin, {1e-3 * scale, 0, 0}),
+                      plus(core.begin, way, 0.9 + 0.1 * (i % 5))},
+                     {{0, i % 2 == 0 ? 2U : 1U}});
+      for (const bool isTurned : {false, true}) {
+        const auto pair = isTurned ? examine(line, round) : examine(round, line);
+        if (!pair.depth || *pair.depth == 0.0) continue;
+        ++deep;
+        EXPECT_NEAR(dot(pair.normal, pair.normal), 1.0, kClose);
+        EXPECT_NEAR(distanceTo(core, isTurned ? pair.pointOnSecond : pair.pointOnFirst), core.radius, 1e-6 * scale);
+      }
+    }
+    EXPECT_GT(deep, repeats(200)) << scale;
+  }
+}
+
+TEST(FclShapes, ACapsuleWithACoreWhoseDirectionIsLostIsABall) {
+  CapsuleModel least("least", {{{0, 0, 0}, {1e-200, 0, 0}, 1.0}});
+  SphereModel round("round", {{0, 0, 0}}, {2.0});
+  const auto pair = examine(least, round);
+  EXPECT_THAT(pair.normal, isAt({0, 0, 1}));
+  EXPECT_THAT(pair.pointOnFirst, isAt({0, 0, -1}));
+}
+
 /// The same of balls and cuboids, with middles on the surface, within and outside.
 TEST(FclShapes, ThePointsOfBallsAndCuboidsLieOnTheirSurfacesAsFarApartAsTheDepth) {
   constexpr std::uint32_t kSeed = 12;

@@ -13,6 +13,7 @@
 
 #include "ReportFiles.h"
 #include "app/Expect.h"
+#include "support/IfcText.h"
 #include "support/TempFolder.h"
 
 namespace allpairs::test {
@@ -294,6 +295,35 @@ TEST(ReportSince, AClashWithAnotherFileOfTheNameIsAnother) {
   EXPECT_EQ(after.at("left/bolt.obj plate.obj").first, "new");
   EXPECT_EQ(after.at("plate.obj right/bolt.obj").first, "new");
   EXPECT_EQ(after.at("bolt.obj plate.obj"), std::pair(std::string("resolved"), guid));
+}
+
+TEST(ReportSince, AFilesOwnClashIsKnownByTheFileAndNotByGlobalIdsInIt) {
+  const TempFolder folder;
+  const std::string others = std::regex_replace(kIfc, std::regex("ctVUKr0kugbFTf53O9L"), "ctVUKr0kugbFTf53O9M");
+  const std::string far =
+      std::regex_replace(others, std::regex("#8=IFCCARTESIANPOINT..0"), "#8=IFCCARTESIANPOINT((100000");
+  ASSERT_NE(far, others);
+  const auto report = [&](const Names& options) {
+    Names words{"report", folder.path() / "parts", "--recursive", "--group", "file", "-o", folder.path() / "out"};
+    words.insert(words.end(), options.begin(), options.end());
+    expectSuccess(runProgram(words));
+    MovedFiles::Rows rows;
+    for (const auto& row : rowsOf(folder.path() / "out")) {
+      const auto since = row.find("since");
+      rows[row.at("first_file")] = {since == row.end() ? "" : since->second, row.at("guid")};
+    }
+    return rows;
+  };
+  const Names since{"--since", folder.path() / "out"};
+  folder.write("parts/left/m.ifc", kIfc);
+  const std::string left = report({}).at("m.ifc").second;
+  folder.write("parts/right/m.ifc", far);
+  const MovedFiles::Rows both = report(since);
+  EXPECT_EQ(both.at("left/m.ifc"), std::pair(std::string("persisting"), left));
+  const std::string& right = both.at("right/m.ifc").second;
+  EXPECT_NE(right, left);
+  fs::remove_all(folder.path() / "parts/left");
+  EXPECT_EQ(report(since), (MovedFiles::Rows{{"m.ifc", {"persisting", right}}, {"left/m.ifc", {"resolved", left}}}));
 }
 
 TEST(ReportSince, ANewClashHasNotTheGuidThatAnotherKept) {

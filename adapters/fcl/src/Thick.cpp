@@ -9,10 +9,12 @@
 namespace allpairs::exact {
 namespace {
 
-/// From the begin of a capsule's core to its end; zero of a ball.
+/// From the begin of a capsule's core to its end; zero of a ball, and of a core so short that its direction is lost.
 Point coreOf(const ExactPart& thick) {
+  constexpr double kLeastSquare = 1e-290;
   const Corners& corners = thick.triangles().front();
-  return corners[1] - corners[0];
+  const Point core = corners[1] - corners[0];
+  return core.squaredNorm() < kLeastSquare ? Point(Point::Zero()) : core;
 }
 
 Point between(const ExactPart& first, const ExactPart& second) {
@@ -49,6 +51,7 @@ Point awayFrom(const ExactPart& thin, const ExactPart& thick, const Point& at, d
 /// The direction nearest to the wanted one in which the surface of a ball or a capsule lies beside a point of its core:
 /// across it, or at an end beyond it. Length 1.
 Point besideCore(const ExactPart& thick, const Point& at, Point direction, double tolerance) {
+  direction.stableNormalize();
   const Point core = coreOf(thick);
   if (!core.isZero(0.0)) {
     const Point unit = core.normalized();

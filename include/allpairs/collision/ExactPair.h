@@ -55,8 +55,9 @@ struct ExactPair {
   std::optional<double> depth{};
 
   /// Apart: the nearest point of each. Else: the deepest point, and the point of the other's surface nearest to it, as
-  /// far apart as the depth. Of a ball or a capsule it lies on its surface, but where the deepest point of a capsule's
-  /// core is midway between faces that the core passes aslant: then in the capsule.
+  /// far apart as the depth. Of a ball or a capsule it lies on its surface, but where the deepest point found of a
+  /// capsule's core, up to 1% less deep than the deepest, is between faces that the core passes aslant: then in the
+  /// capsule.
   collision::Vec3 pointOnFirst{};
   collision::Vec3 pointOnSecond{};
 
