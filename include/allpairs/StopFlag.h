@@ -10,8 +10,8 @@ namespace allpairs {
 /// Ends the searches whose options name it: soon after it is set they throw Stopped, and so do new ones until it is
 /// cleared, except those of a few boxes, which may end first. What was searching can be used on.
 ///
-/// Cost:    a search looks at it every few hundredths of a second, and once in some thousand pairs. It never changes a
-///          result.
+/// Cost:    a search looks at it every few hundredths of a second, once in some thousand pairs, and between two batches
+///          of a stream. It never changes a result.
 /// Threads: all members from any thread, and from a signal handler.
 class StopFlag {
  public:

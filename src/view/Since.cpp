@@ -184,11 +184,13 @@ bool isOfAnotherFolder(const std::string& file, const std::array<EarlierPlace, 2
 }
 
 /// Whether a row of now may be the earlier one that has its GUID. That one may have kept the GUID of a file of the same
-/// name, which is known by other folders now; what is known by its GlobalId is the same, whatever its file.
+/// name, which is known by other folders now; what is known by a GlobalId is the same, whatever its file.
 bool mayBeSame(const ViewScene& scene, const EarlierClash& earlier, const Clash& clash) {
   const auto mayBe = [&](std::uint32_t model) {
-    const bool hasId = !scene.ids.empty() && !scene.ids[model].empty();
-    return (hasId && identityOf(scene, model) == scene.ids[model]) || !isOfAnotherFolder(placeOf(scene, model).file, earlier.places);
+    const std::string& file = scene.fileNames[scene.files[model]];
+    const std::string identity = identityOf(scene, model);
+    const bool isKnownByFile = identity == file || identity.starts_with(file + '\n');
+    return !isKnownByFile || !isOfAnotherFolder(placeOf(scene, model).file, earlier.places);
   };
   return scene.files.empty() || (mayBe(clash.first) && mayBe(clash.second));
 }

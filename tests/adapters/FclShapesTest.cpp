@@ -222,8 +222,8 @@ TEST(FclShapes, ThePointsOfCapsulesLieOnTheirSurfacesHoweverLargeTheyAre) {
     for (int i = 0; i < repeats(400); ++i) {
       SCOPED_TRACE(::testing::Message() << "seed " << kSeed << ", " << i << ", scale " << scale);
       Capsule core{place(), place(), 0.2 * scale * (1 + i % 5)};
+      if (core.begin == core.end) core.end[0] += scale;
       const Vec3 way = plus(core.end, core.begin, -1.0);
-      if (way == Vec3{0, 0, 0}) core.end[0] += scale;
       CapsuleModel round("round", {core});
       LineModel line("line",
                      {plus(core.begin, way, 0.1 * (i % 10) - 0.5), plus(core.begin, {1e-3 * scale, 0, 0}),

@@ -11,6 +11,7 @@
 #include <map>
 #include <optional>
 #include <random>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -250,27 +251,35 @@ TEST(FewBoxesWithOptions, ReachAsFarAsTheLeastNumber) {
   }
 }
 
+/// However few or many they are, in ranges or not.
 TEST(FewBoxesWithOptions, AreStoppedByAVisitorBeforeTheNextBatch) {
-  const std::vector<Box> boxes(30, test::cube(0, 0, 0));
-  for (const double distance : {0.0, 0.1}) {
-    StopFlag stop;
-    OverlapOptions options{.distance = distance};
-    options.stop = &stop;
-    OverlapSearch search(options);
-    std::size_t batches = 0;
-    const auto setFlag = [&](Span<const Pair>) {
-      stop.set();
-      ++batches;
-    };
-    EXPECT_THROW(search.stream(boxes, setFlag, 16), Stopped);
-    EXPECT_EQ(batches, 1U);
-    EXPECT_EQ(search.statistics().pairs, 0U);
-    stop.clear();
-    std::size_t pairs = 0;
-    search.stream(
-        boxes, [&](Span<const Pair> batch) { pairs += batch.size(); }, 16);
-    EXPECT_EQ(pairs, 435U);
-    EXPECT_EQ(search.statistics().pairs, 435U);
+  for (const std::size_t n : {30U, 600U}) {
+    const std::vector<Box> boxes(n, test::cube(0, 0, 0));
+    for (const Order order : {Order::ByFirst, Order::Unordered}) {
+      for (const Strategy strategy : {Strategy::Automatic, Strategy::Bvh}) {
+        StopFlag stop;
+        OverlapOptions options{.strategy = strategy, .order = order};
+        options.stop = &stop;
+        OverlapSearch search(options);
+        std::size_t batches = 0;
+        const auto setFlag = [&](Span<const Pair>) {
+          stop.set();
+          ++batches;
+        };
+        EXPECT_THROW(search.stream(boxes, setFlag, 16), Stopped);
+        EXPECT_EQ(batches, 1U);
+        EXPECT_EQ(search.statistics().pairs, 0U);
+        stop.clear();
+        const auto fail = [](Span<const Pair>) { throw std::runtime_error("the visitor's"); };
+        EXPECT_THROW(search.stream(boxes, fail), std::runtime_error);
+        EXPECT_EQ(search.statistics().pairs, 0U);
+        std::size_t pairs = 0;
+        const auto count = [&](Span<const Pair> batch) { pairs += batch.size(); };
+        search.stream(boxes, count, 16);
+        EXPECT_EQ(pairs, n * (n - 1) / 2);
+        EXPECT_EQ(search.statistics().pairs, pairs);
+      }
+    }
   }
 }
 

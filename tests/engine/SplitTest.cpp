@@ -26,7 +26,7 @@ std::vector<std::uint64_t> workOfTasks(const std::string& scene, std::size_t thr
   const OverlapOptions options;
   SerialExecutor serial;
   BvhBuilder builder(defaultMemory());
-  const Kernels& kernels = chooseKernels(options);
+  const Kernels& kernels = chooseKernels(options.instructionSet);
   builder.build(BoxReader(boxes, options, kernels), serial);
   const BvhView view = builder.levels().view();
   const std::size_t leaves = view.level[0].blockCount();

@@ -25,8 +25,8 @@ Point between(const ExactPart& first, const ExactPart& second) {
 /// A direction across both cores, in which the surface of either lies beside any point of it.
 Point acrossCores(const Point& first, const Point& second) {
   constexpr double kParallel = 1e-9;
-  const Point across = first.cross(second);
-  if (across.norm() > kParallel * first.norm() * second.norm()) return across.normalized();
+  const Point across = first.stableNormalized().cross(second.stableNormalized());
+  if (across.norm() > kParallel) return across.normalized();
   const Point& core = first.squaredNorm() >= second.squaredNorm() ? first : second;
   return core.isZero(0.0) ? Point(Point::UnitZ()) : Point(core.unitOrthogonal());
 }

@@ -38,6 +38,8 @@ OverlapStatistics countFew(const Sets& sets, const OverlapOptions& options);
 [[nodiscard]] bool areFewBesideMany(const Sets& sets, const OverlapOptions& options);
 
 /// Calls take(pairs) with parts of the pairs, in order. Boxes are compared as they lie in the caller's memory.
+///
+/// Bad input: as for Search::find().
 OverlapStatistics findFewBesideMany(const Sets& sets, const OverlapOptions& options, Order order,
                                     FunctionRef<void(std::span<const Pair>)> take);
 

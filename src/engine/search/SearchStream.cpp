@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include "allpairs/Error.h"
 #include "search/FewBoxes.h"
@@ -25,6 +26,8 @@ void Search::stream(const Sets& sets, const OverlapOptions& options, PairVisitor
   if (batchSize == 0) throw InvalidArgument("a batch size of 0 pairs");
   std::uint64_t given = 0;
   const auto give = [&](std::span<const Pair> pairs) {
+    // If what follows throws, there has been no search.
+    const OverlapStatistics statistics = std::exchange(m_statistics, {});
     for (std::size_t begin = 0; begin < pairs.size(); begin += batchSize) {
       const std::span<const Pair> batch = pairs.subspan(begin, std::min(batchSize, pairs.size() - begin));
       if (given != 0) checkStop(options.stop);
@@ -32,13 +35,11 @@ void Search::stream(const Sets& sets, const OverlapOptions& options, PairVisitor
       checkLimit(options.maxPairs, given);
       visitor(batch);
     }
+    m_statistics = statistics;
   };
   if (pairsOf(sets) <= kMostFew * kMostFew && areFew(sets, options)) {
-    const std::span<const Pair> pairs = findAmongFew(sets, options, options.order);
-    const OverlapStatistics statistics = m_statistics;
-    forget();  // If the visitor throws, there has been no search.
-    give(pairs);
-    m_statistics = statistics;
+    give(findAmongFew(sets, options, options.order));
+    m_pairs = {};
     return;
   }
   begin(sets, options);
@@ -81,7 +82,7 @@ void Search::streamInRanges(const Sets& sets, const OverlapOptions& options, con
       continue;
     }
     give(m_pairs);
-    add(total, m_statistics);
+    add(total, std::exchange(m_statistics, {}));
     begin = end;
     length = std::min(2 * length, kLastRange);
   }

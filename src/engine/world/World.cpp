@@ -82,7 +82,7 @@ struct World::State {
 
   /// What const members read: a world without boxes if it has been moved from.
   static State& of(const World& world) {
-    static State none({}, engine::chooseKernels({}));
+    static State none({}, engine::chooseKernels(""));
     return world.m_state != nullptr ? *world.m_state : none;
   }
 
