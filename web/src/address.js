@@ -59,8 +59,11 @@ export class Address {
   /** Does something that the address does not say. */
   without(act) {
     this.isFollowing = true;
-    act();
-    this.isFollowing = false;
+    try {
+      act();
+    } finally {
+      this.isFollowing = false;
+    }
   }
 
   /** Chooses what the address says, as text() says it: without a frame it is the first, without names nothing is chosen.

@@ -166,7 +166,10 @@ function start() {
   controls.bcf.addEventListener("click", saveBcf);
   notes.addEventListener("change", ({ guid }) => show(guid));
   show(null);
-  addEventListener("pageshow", () => show(null)); // on the way back browsers fill fields in as they were left
+  addEventListener("pageshow", () => { // on the way back browsers fill fields in as they were left
+    controls.author.value = notes.author || controls.author.value;
+    show(null);
+  });
 }
 
 if (rows.length > 0) start();

@@ -33,7 +33,10 @@ function effort({ statistics, frames, exact }) {
 }
 
 /** How pairs are found at another distance than the page began with, in the words of methodText() in Inputs.cpp. */
-const methodAt = (method, distance) => method.replace(/^boxes( at most \S+ apart on every axis)?/, `boxes at most ${distance} apart on every axis`).replace(/(, alarm distance )[^,;]+/, `$1${distance}`);
+function methodAt(method, distance) {
+  const boxes = distance === 0 ? "boxes" : `boxes at most ${distance} apart on every axis`;
+  return method.replace(/^boxes( at most \S+ apart on every axis)?/, boxes).replace(/(?<=, alarm distance )[^,;]+/, `${distance}`);
+}
 
 /** How many clash and how bad, then what does not. */
 function exactFacts({ scene, table }) {
