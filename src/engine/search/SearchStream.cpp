@@ -38,7 +38,13 @@ void Search::stream(const Sets& sets, const OverlapOptions& options, PairVisitor
     m_statistics = statistics;
   };
   if (pairsOf(sets) <= kMostFew * kMostFew && areFew(sets, options)) {
-    give(findAmongFew(sets, options, options.order));
+    if (options.maxPairs >= pairsOf(sets)) {
+      give(findAmongFew(sets, options, options.order));
+    } else {
+      OverlapOptions unlimited = options;
+      unlimited.maxPairs = OverlapOptions().maxPairs;  // the batches are counted
+      give(findAmongFew(sets, unlimited, options.order));
+    }
     m_pairs = {};
     return;
   }
