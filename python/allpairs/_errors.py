@@ -62,7 +62,7 @@ class FileError(Error, OSError):
 
 
 def shown_path(path: str) -> str:
-    """A path as messages show it: control characters, line separators, and bytes that are no UTF-8, as \\xNN."""
+    """A path for messages: control characters, line separators and bytes that are not UTF-8 are written as \\xNN."""
     text = os.fsencode(path).decode("utf-8", "backslashreplace")
     escaped = lambda found: "".join(f"\\x{byte:02x}" for byte in found[0].encode())
     return re.sub("[\0-\x1f\x7f-\x9f\u2028\u2029]", escaped, text)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Masked arrays, and lists that have some: NumPy drops a mask without a word, or makes NaN of what it hides."""
+"""Refuses masked entries: NumPy silently drops the mask of an array, and turns masked entries of a list into NaN."""
 
 from __future__ import annotations
 

@@ -96,7 +96,7 @@ std::optional<double> numberIn(const std::string& cell) {
   return value;
 }
 
-/// A depth; none where there is no number, or none that is a depth.
+/// The depth in a cell, if it has a number that is not negative.
 std::optional<double> depthIn(const std::string& cell) {
   const std::optional<double> value = numberIn(cell);
   return value && *value >= 0.0 ? value : std::nullopt;

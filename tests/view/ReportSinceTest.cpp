@@ -222,8 +222,16 @@ class MovedFiles {
   using Rows = std::map<std::string, std::pair<std::string, std::string>>;
 
   Rows report(const Parts& parts, const Names& options = {}) {
+    std::map<std::string, std::string> texts;
+    for (const auto& [name, x] : parts) texts[name] = "o part\n" + wedgeAt(x);
+    return reportFiles(texts, options);
+  }
+  Rows reportSince(const Parts& parts, const Names& options = {}) { return report(parts, since(options)); }
+
+  /// Of files with these texts.
+  Rows reportFiles(const std::map<std::string, std::string>& texts, const Names& options) {
     fs::remove_all(m_folder.path() / "parts");
-    for (const auto& [name, x] : parts) m_folder.write("parts/" + name, "o part\n" + wedgeAt(x));
+    for (const auto& [name, text] : texts) m_folder.write("parts/" + name, text);
     Names words{"report", m_folder.path() / "parts", "--recursive", "-o", m_folder.path() / "out"};
     words.insert(words.end(), options.begin(), options.end());
     expectSuccess(runProgram(words));
@@ -235,10 +243,11 @@ class MovedFiles {
     }
     return rows;
   }
-  Rows reportSince(const Parts& parts, const Names& options = {}) {
+  /// Options, with the one before.
+  [[nodiscard]] Names since(const Names& options) const {
     Names words{"--since", m_folder.path() / "out"};
     words.insert(words.end(), options.begin(), options.end());
-    return report(parts, words);
+    return words;
   }
 
  private:
@@ -298,32 +307,19 @@ TEST(ReportSince, AClashWithAnotherFileOfTheNameIsAnother) {
 }
 
 TEST(ReportSince, AFilesOwnClashIsKnownByTheFileAndNotByGlobalIdsInIt) {
-  const TempFolder folder;
+  MovedFiles files;
+  const Names byFile{"--group", "file"};
   const std::string others = std::regex_replace(kIfc, std::regex("ctVUKr0kugbFTf53O9L"), "ctVUKr0kugbFTf53O9M");
   const std::string far =
       std::regex_replace(others, std::regex("#8=IFCCARTESIANPOINT..0"), "#8=IFCCARTESIANPOINT((100000");
   ASSERT_NE(far, others);
-  const auto report = [&](const Names& options) {
-    Names words{"report", folder.path() / "parts", "--recursive", "--group", "file", "-o", folder.path() / "out"};
-    words.insert(words.end(), options.begin(), options.end());
-    expectSuccess(runProgram(words));
-    MovedFiles::Rows rows;
-    for (const auto& row : rowsOf(folder.path() / "out")) {
-      const auto since = row.find("since");
-      rows[row.at("first_file")] = {since == row.end() ? "" : since->second, row.at("guid")};
-    }
-    return rows;
-  };
-  const Names since{"--since", folder.path() / "out"};
-  folder.write("parts/left/m.ifc", kIfc);
-  const std::string left = report({}).at("m.ifc").second;
-  folder.write("parts/right/m.ifc", far);
-  const MovedFiles::Rows both = report(since);
-  EXPECT_EQ(both.at("left/m.ifc"), std::pair(std::string("persisting"), left));
-  const std::string& right = both.at("right/m.ifc").second;
+  const std::string left = files.reportFiles({{"left/m.ifc", kIfc}}, byFile).at("m.ifc m.ifc").second;
+  const MovedFiles::Rows both = files.reportFiles({{"left/m.ifc", kIfc}, {"right/m.ifc", far}}, files.since(byFile));
+  EXPECT_EQ(both.at("left/m.ifc left/m.ifc"), std::pair(std::string("persisting"), left));
+  const std::string& right = both.at("right/m.ifc right/m.ifc").second;
   EXPECT_NE(right, left);
-  fs::remove_all(folder.path() / "parts/left");
-  EXPECT_EQ(report(since), (MovedFiles::Rows{{"m.ifc", {"persisting", right}}, {"left/m.ifc", {"resolved", left}}}));
+  EXPECT_EQ(files.reportFiles({{"right/m.ifc", far}}, files.since(byFile)),
+            (MovedFiles::Rows{{"m.ifc m.ifc", {"persisting", right}}, {"left/m.ifc left/m.ifc", {"resolved", left}}}));
 }
 
 TEST(ReportSince, ANewClashHasNotTheGuidThatAnotherKept) {

@@ -281,7 +281,7 @@ class Look {
   double m_passing = 0.0;   ///< How far segments of one pass through triangles of the other.
   double m_crossing = 0.0;  ///< How far triangles of the two pass through each other.
   double m_coreDistance = 0.0;
-  bool m_isInReach = false;         ///< The cores are no further apart than the radii.
+  bool m_isInReach = false;         ///< The distance of the cores is at most the sum of the radii.
   Point m_contact = Point::Zero();  ///< Of parts of which no triangles meet.
   bool m_reachesIntoFirst = false;  ///< The second's surface lies in the first, by more than what is as good as on it.
   bool m_reachesIntoSecond = false;

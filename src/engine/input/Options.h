@@ -33,6 +33,11 @@ struct Sets {
          !sets.first.hasMargins() && !sets.second.hasMargins();
 }
 
+/// Whether a box with this margin reaches into the region that the options have, if any; no empty box reaches into one.
+[[nodiscard]] inline bool reachesRegion(const Box& box, double margin, const OverlapOptions& options) noexcept {
+  return !options.region || overlap(box, *options.region, options.distance + margin);
+}
+
 /// Throws InvalidArgument, with a message that names the setting, if options are invalid for these sets.
 void checkOptions(const Sets& sets, const OverlapOptions& options);
 

@@ -153,9 +153,9 @@ std::span<const Candidate> readCandidates(const BoxView& boxes, const OverlapOpt
   std::size_t size = 0;
   for (std::uint32_t i = 0; i < boxes.size(); ++i) {
     const Candidate candidate{boxes[i], boxes.margin(i), i};
-    const double reach = options.distance + candidate.margin;
-    const bool isIn = options.region ? overlap(candidate.box, *options.region, reach) : !isEmpty(candidate.box);
-    if (isIn) candidates[size++] = candidate;
+    if (!isEmpty(candidate.box) && reachesRegion(candidate.box, candidate.margin, options)) {
+      candidates[size++] = candidate;
+    }
   }
   return {candidates, size};
 }
@@ -235,7 +235,7 @@ BoxView copyWide(const BoxView& boxes, double distance, WordRows& rows) {
 std::uint64_t outsideOf(const BoxView& boxes, const OverlapOptions& options) noexcept {
   std::uint64_t bits = 0;
   for (std::size_t i = 0; options.region && i < boxes.size(); ++i) {
-    bits |= std::uint64_t{!overlap(boxes[i], *options.region, options.distance + boxes.margin(i))} << i;
+    bits |= std::uint64_t{!reachesRegion(boxes[i], boxes.margin(i), options)} << i;
   }
   return bits;
 }

@@ -246,9 +246,7 @@ void WorldsSearcher::runWide(std::size_t world, Worker& worker, WorldSink& sink)
   WideWorld& wide = worker.wide[0];
   const std::size_t first = m_worlds->begin(world);
   const std::size_t size = sizeOf(world);
-  const auto isIn = [&](const Box& box, double margin) {
-    return !m_options->region || overlap(box, *m_options->region, m_options->distance + margin);
-  };
+  const auto isIn = [&](const Box& box, double margin) { return reachesRegion(box, margin, *m_options); };
   wide.read(
       size, m_worlds->boxes(), [=](std::size_t i) { return first + i; }, isIn);
   wide.distance = m_options->distance;
