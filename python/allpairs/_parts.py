@@ -66,6 +66,8 @@ class BoxParts(NamedTuple):
     values: list[Values]
     """Of each part, what was given."""
     places: list[Place]
+    files: list[str]
+    """Those that were named, of boxes and of values."""
 
     @property
     def begins(self) -> list[int]:
@@ -228,11 +230,12 @@ def _of_files(name: str, names: list[str], begins: Sequence[int]) -> list[Any]:
     return [read(name, _pieces(names, sizes, begin, end)) for begin, end in zip(begins, begins[1:])]
 
 
-def _of_each_part(name: str, value: Any, begins: Sequence[int], prefix: str) -> list[Any]:
-    """The value for the boxes of each part: what a task reads, or the number that all have."""
+def _of_each_part(name: str, value: Any, begins: Sequence[int], prefix: str, files: list[str]) -> list[Any]:
+    """The value for the boxes of each part: what a task reads, or the number that all have. Adds files that it names."""
     called = prefix + name
     names = _files_of(called, value)
     if names is not None:
+        files.extend(names)
         return _of_files(name, names, begins)
     if _arguments.is_one(value):
         single = (_arguments.floats if name == "margin" else _arguments.array_of)(called, value).reshape(1)
@@ -265,7 +268,8 @@ def box_parts(values: Values) -> list[BoxParts]:
         parts, sizes, files = _boxes_of(argument, values[argument])
         begins = _begins_of(sizes)
         places = [Place(file, is_file=True) for file in files] or [Place(called, begin) for begin in begins[:-1]]
-        columns = {name: _of_each_part(name, pair[i], begins, prefixes[i]) for name, pair in own.items() if pair[i] is not None}
+        given = {name: pair[i] for name, pair in own.items() if pair[i] is not None}
+        columns = {name: _of_each_part(name, value, begins, prefixes[i], files) for name, value in given.items()}
         rows = [{name: column[number] for name, column in columns.items()} for number in range(len(parts))]
-        sets.append(BoxParts(parts, sizes, rows, places))
+        sets.append(BoxParts(parts, sizes, rows, places, files))
     return sets

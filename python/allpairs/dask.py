@@ -173,7 +173,16 @@ def _put(beside: str, path: str) -> None:
         raise file_error(path, f"cannot be written: {reason(problem)}", problem) from None
 
 
-def _names_in(folder: Path, count: int) -> list[str]:
+def _refuse_inputs(names: list[str], inputs: list[str]) -> None:
+    """A result would take the place of what it was made from."""
+    read = {(found.st_dev, found.st_ino) for found in map(os.stat, filter(os.path.exists, inputs))}
+    for name in filter(os.path.exists, names):
+        found = os.stat(name)
+        if (found.st_dev, found.st_ino) in read:
+            raise file_error(name, "is an input; the output needs another folder")
+
+
+def _names_in(folder: Path, count: int, inputs: list[str]) -> list[str]:
     """The files of a result in a folder, which is made if it is not there."""
     try:
         folder.mkdir(parents=True, exist_ok=True)
@@ -184,6 +193,7 @@ def _names_in(folder: Path, count: int) -> list[str]:
         if os.path.isdir(name):
             raise file_error(name, "cannot be written: Is a directory", IsADirectoryError(errno.EISDIR, "Is a directory"))
     others = sorted({str(path) for path in folder.glob("part-*.npy")} - set(names))
+    _refuse_inputs(names + others, inputs)
     if others:
         raise file_error(others[0], f"is of another result, with more parts than the {count} of this one: remove it")
     return names
@@ -223,10 +233,10 @@ class _Tasks:
         return compute(Delayed(self.name, self.graph()))[0]
 
 
-def _written(tasks: _Tasks, merged: list[Hashable], folder: Path) -> int:
+def _written(tasks: _Tasks, merged: list[Hashable], folder: Path, inputs: list[str]) -> int:
     """Computes the parts of a result into files of a folder, and returns the number of pairs. The files get their names
     when all are complete: a failure before leaves what was there."""
-    names = _names_in(folder, len(merged))
+    names = _names_in(folder, len(merged), inputs)
     call = uuid4().hex
     try:
         writes = [
@@ -370,10 +380,10 @@ def overlaps(
         sets are numbered by themselves.
     output : path of a folder
         Write the pairs there, as part-00000.npy and so on, and return their number. Parts of a result with more parts
-        must not be there. The parts get their names when all are written: a failure before leaves those of an earlier
-        result, beside which they take room until then. What workers that were killed had begun to write is removed at
-        the end; where others still write after a failure, or this process itself is killed, files that end in .part may
-        stay, which nothing reads.
+        must not be there, nor inputs of such names. The parts get their names when all are written: a failure before
+        leaves those of an earlier result, beside which they take room until then. What workers that were killed had begun
+        to write is removed at the end; where others still write after a failure, or this process itself is killed, files
+        that end in .part may stay, which nothing reads.
     distance, region
         As in `allpairs.overlaps`.
     margin, group, category, mask : number, dask array or array_like of shape (n,), path, or list of paths
@@ -406,7 +416,7 @@ def overlaps(
     dtype = "uint32" if max(sum(each.sizes) for each in sets) <= 2**32 else "uint64"
     merged = _merged(tasks, planned, settings, (sets[0].begins, dtype))
     if folder is not None:
-        return _written(tasks, merged, folder)
+        return _written(tasks, merged, folder, [file for each in sets for file in each.files])
     return DaskArray(tasks.graph(), tasks.name, ((np.nan,) * len(merged), (2,)), dtype=dtype)
 
 

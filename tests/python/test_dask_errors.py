@@ -90,3 +90,25 @@ def test_a_name_that_no_file_can_have_is_refused(tmp_path, monkeypatch, name):
         with pytest.raises(allpairs.InvalidArgument, match=rf"^{argument} is b?'.*', which no file can be called$"):
             call()
     assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("argument", ["boxes", "second", "margin"])
+def test_a_result_takes_the_place_of_no_input(tmp_path, argument):
+    rows = np.repeat(np.arange(6.0), 6).reshape(6, 6) + np.repeat([0.0, 2.0], 3)
+    folder = tmp_path / "pairs"
+    folder.mkdir()
+    names = [folder / f"part-0000{number}.npy" for number in range(3)]
+    for name, part in zip(names, np.split(np.arange(6.0) if argument == "margin" else rows, 3)):
+        np.save(name, part)
+    before = [name.read_bytes() for name in names]
+    given = {"boxes": dask.array.from_array(rows, chunks=(2, 6)), argument: names}
+    (tmp_path / "link").symlink_to(folder)
+    for output in (folder, tmp_path / "link"):
+        message = "^/.*/part-00000.npy: is an input; the output needs another folder$"
+        with pytest.raises(allpairs.FileError, match=message):
+            allpairs.dask.overlaps(output=output, **given)
+    few = {**given, "boxes": dask.array.from_array(rows, chunks=(6, 6))}
+    with pytest.raises(allpairs.FileError, match="^/.*/part-0000[0-2].npy: is an input; the output needs another folder$"):
+        allpairs.dask.overlaps(output=folder, **(given if argument == "boxes" else few))  # which is no older result
+    assert [name.read_bytes() for name in names] == before and sorted(folder.iterdir()) == names
+    assert allpairs.dask.overlaps(output=tmp_path / "others", **given) == allpairs.dask.count(**given)
