@@ -12,7 +12,8 @@ namespace allpairs::join {
 /// How much of everything is in memory at once. Steps follow one another, so each may take all there is.
 struct Budget {
   std::size_t workers = 1;
-  std::size_t cellBoxes = 0;    ///< Boxes that a worker searches at once, of one set or of both together.
+  std::size_t cellBoxes = 0;  ///< Boxes that a worker searches at once, of one set or of both together.
+  std::size_t fairBoxes = 0;  ///< If not 0, boxes of each part of a cell that has more than cellBoxes and is cut again.
   std::size_t leastCells = 1;   ///< Cells that space is cut into at least, however few boxes a region leaves.
   std::size_t bufferPairs = 0;  ///< Pairs that a worker gathers before it writes them.
   std::size_t bufferBytes = 0;  ///< All cells' buffers while boxes are distributed.

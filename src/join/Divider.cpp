@@ -32,6 +32,12 @@ std::size_t cellsFor(std::uint64_t boxes, const Budget& budget) {
   return std::max(forMemory, forWorkers);
 }
 
+/// Into how many parts a cell is cut again.
+std::size_t partsOfFull(std::uint64_t boxes, const Budget& budget) {
+  if (budget.fairBoxes == 0) return 2 * cellsFor(boxes, budget);
+  return static_cast<std::size_t>((boxes + budget.fairBoxes - 1) / budget.fairBoxes);
+}
+
 }  // namespace
 
 std::uint64_t Division::records() const { return std::accumulate(counts.begin(), counts.end(), std::uint64_t{0}); }
@@ -125,16 +131,12 @@ void Divider::count(Division& division) {
 
 /// Returns whether anything was cut.
 bool Divider::cutFullCells(Division& division, const BoxSample& sample) const {
-  bool isCut = false;
-  std::vector<std::pair<std::size_t, std::uint64_t>> full;
+  std::vector<partition::CellToCut> full;
   for (std::size_t cell = 0; cell < division.cells.size(); ++cell) {
-    const std::uint64_t boxes = division.countOf(cell);  // before a cut: then parts have other numbers
-    if (boxes > m_budget.cellBoxes) full.emplace_back(cell, boxes);
+    const std::uint64_t boxes = division.countOf(cell);
+    if (boxes > m_budget.cellBoxes) full.push_back({cell, partsOfFull(boxes, m_budget)});
   }
-  for (const auto& [cell, boxes] : full) {
-    isCut |= division.cells.cutAgain(cell, sample.view(), 2 * cellsFor(boxes, m_budget), m_options.distance);
-  }
-  return isCut;
+  return division.cells.cutAgain(full, sample.view(), m_options.distance);
 }
 
 /// Every so many boxes of a set are in its sample; of two sets of about the same size those with the same numbers.

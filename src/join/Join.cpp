@@ -210,8 +210,8 @@ RanksPlan planRanks(Span<const fs::path> inputs, std::size_t ranks, const JoinOp
   const std::size_t cells = ranks == 1 ? 1 : partition::cellsOnRanks(input.size(), ranks);
   budget.workers = 1;
   budget.leastCells = cells;
-  // Divider fills cells to seven tenths.
-  budget.cellBoxes = static_cast<std::size_t>(input.size() / cells / 7 * 10 + 1);
+  budget.fairBoxes = static_cast<std::size_t>(std::max<std::uint64_t>(input.size() / cells, 1));
+  budget.cellBoxes = 2 * budget.fairBoxes;  // as mpi::Distribution
   const Division division = Divider(input, options, budget).divide();
   const std::uint64_t recordSize = sentSizeOf(input.recordType());
   const std::uint64_t most = partition::mostInCellOnRanks(input.size(), ranks);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <utility>
@@ -82,6 +83,10 @@ std::optional<Split> bestSplit(std::span<const Box> reaches, double low, std::ve
   return best;
 }
 
+[[noreturn]] void throwNoCell(std::size_t number, std::size_t cells) {
+  throw InvalidArgument("cell " + std::to_string(number) + " of " + std::to_string(cells));
+}
+
 std::int32_t sideOfCell(std::size_t number) { return ~static_cast<std::int32_t>(number); }
 
 /// Where a walk begins: at the first cut, or in the only cell.
@@ -107,6 +112,36 @@ void checkCuts(std::span<const Cut> cuts) {
     if (!isRight) throw InvalidArgument("cut " + std::to_string(i) + " of a partition does not fit the others");
   }
 }
+
+/// A reach as it was where the cell was made: a cut below the cell would divide nothing.
+Box within(const Cell& cell, Box reach) {
+  for (std::size_t axis = 0; axis < 3; ++axis) reach.min[axis] = std::max(reach.min[axis], cell.min[axis]);
+  return reach;
+}
+
+/// Cells that are to be cut again, and what leads to them.
+class Wanted {
+ public:
+  Wanted(Span<const CellToCut> cells, std::span<const Cut> cuts) : m_parts(cuts.size() + 1), m_leads(cuts.size()) {
+    for (const auto& [number, parts] : cells) {
+      if (number >= m_parts.size()) throwNoCell(number, m_parts.size());
+      if (std::exchange(m_parts[number], std::max<std::size_t>(parts, 1)) == 0) continue;
+      throw InvalidArgument("cell " + std::to_string(number) + " is to be cut twice");
+    }
+    for (std::size_t i = cuts.size(); i-- > 0;) m_leads[i] = isIn(cuts[i].low) || isIn(cuts[i].high);
+  }
+
+  /// Whether any of them is on a side of a cut.
+  [[nodiscard]] bool isIn(std::int32_t side) const {
+    return side < 0 ? parts(static_cast<std::size_t>(~side)) != 0 : m_leads[static_cast<std::size_t>(side)];
+  }
+  /// Into how many parts; 0 of another cell.
+  [[nodiscard]] std::size_t parts(std::size_t number) const { return m_parts[number]; }
+
+ private:
+  std::vector<std::size_t> m_parts;
+  std::vector<bool> m_leads;
+};
 
 }  // namespace
 
@@ -170,7 +205,7 @@ Partition Partition::fromCuts(Span<const Cut> cuts) {
 }
 
 Cell Partition::cell(std::size_t number) const {
-  if (number >= size()) throw InvalidArgument("cell " + std::to_string(number) + " of " + std::to_string(size()));
+  if (number >= size()) throwNoCell(number, size());
   Cell cell;
   std::int32_t side = sideOfCell(number);
   for (std::size_t i = m_cuts.size(); i-- > 0;) {  // up to the first cut: each stands before its sides
@@ -262,22 +297,54 @@ void Partition::addCells(std::int32_t side, const Box& reach, std::vector<std::u
 }
 
 bool Partition::cutAgain(std::size_t number, const BoxView& sample, std::size_t parts, double distance) {
-  const Cell bounds = cell(number);
-  std::vector<Box> reaches = reachesOf(sample, distance);
-  std::erase_if(reaches, [&bounds](const Box& reach) { return !touches(bounds, reach); });
-  for (Box& reach : reaches) {  // as where the cell was made
-    for (std::size_t axis = 0; axis < 3; ++axis) reach.min[axis] = std::max(reach.min[axis], bounds.min[axis]);
-  }
-  const std::size_t before = m_cuts.size();
+  const CellToCut cell{number, parts};
+  return cutAgain(Span<const CellToCut>(&cell, 1), sample, distance);
+}
+
+/// All reaches go down the tree together, as far as it leads to a cell that is to be cut.
+bool Partition::cutAgain(Span<const CellToCut> given, const BoxView& sample, double distance) {
+  struct Part {
+    std::int32_t side;
+    std::size_t above;  ///< The cut that it is a side of, unless it is all of space.
+    Cell bounds;
+    std::vector<std::uint32_t> reaches;
+  };
+  const Wanted wanted(given, m_cuts);
+  if (given.empty()) return false;
+  const std::vector<Box> reaches = reachesOf(sample, distance);
   std::vector<Cut> cuts = m_cuts;  // which stay where memory ends
-  const std::int32_t side = Cutter(cuts, size()).cut(reaches, number, parts);
-  if (cuts.size() == before) return false;
-  for (std::size_t i = 0; i < before; ++i) {
-    if (cuts[i].low == sideOfCell(number)) cuts[i].low = side;
-    if (cuts[i].high == sideOfCell(number)) cuts[i].high = side;
+  std::vector<Box> own;
+  std::vector<Part> parts(1, Part{rootOf(m_cuts), 0, Cell(), std::vector<std::uint32_t>(reaches.size())});
+  std::iota(parts[0].reaches.begin(), parts[0].reaches.end(), std::uint32_t{0});
+  while (!parts.empty()) {
+    const Part part = std::move(parts.back());
+    parts.pop_back();
+    if (part.side < 0) {
+      own.clear();
+      for (const std::uint32_t reach : part.reaches) own.push_back(within(part.bounds, reaches[reach]));
+      const auto number = static_cast<std::size_t>(~part.side);
+      const std::int32_t side = Cutter(cuts, cuts.size() + 1).cut(own, number, wanted.parts(number));
+      if (m_cuts.empty()) continue;
+      Cut& above = cuts[part.above];
+      (above.low == part.side ? above.low : above.high) = side;
+      continue;
+    }
+    const auto place = static_cast<std::size_t>(part.side);
+    const Cut& cut = m_cuts[place];
+    for (const bool isLow : {false, true}) {
+      const std::int32_t side = isLow ? cut.low : cut.high;
+      if (!wanted.isIn(side)) continue;
+      Part& half = parts.emplace_back(Part{side, place, part.bounds, {}});
+      narrow(half.bounds, cut, isLow);
+      for (const std::uint32_t reach : part.reaches) {
+        const Box& box = reaches[reach];
+        if (isLow ? box.min[cut.axis] < cut.at : box.max[cut.axis] >= cut.at) half.reaches.push_back(reach);
+      }
+    }
   }
+  const bool isCut = cuts.size() > m_cuts.size();
   m_cuts = std::move(cuts);
-  return true;
+  return isCut;
 }
 
 double greatestMargin(const BoxView& boxes) noexcept {

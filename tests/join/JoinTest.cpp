@@ -19,6 +19,7 @@
 #include "allpairs/Error.h"
 #include "allpairs/Overlaps.h"
 #include "allpairs/parallel/TbbExecutor.h"
+#include "allpairs/partition/Partition.h"
 #include "allpairs/scene/FileError.h"
 #include "support/Numbers.h"
 #include "support/Sanitizers.h"
@@ -208,6 +209,29 @@ TEST(Join, APlanForRanksCountsWhatTravels) {
     before = plan.boxBytes;
   }
   EXPECT_THROW((void)join::planRanks(with.paths, 0, {}), InvalidArgument);
+}
+
+/// How many cells a search on several ranks has, as mpi::Distribution makes them where its sample is all boxes.
+std::size_t cellsOfRanks(const std::vector<Box>& boxes, std::size_t ranks) {
+  const std::size_t wanted = partition::cellsOnRanks(boxes.size(), ranks);
+  const std::uint64_t fair = boxes.size() / wanted;
+  partition::Partition cells(boxes, wanted);
+  for (int round = 0; round < 3; ++round) {
+    const std::vector<std::uint64_t> counts = partition::boxesPerCell(cells, boxes);
+    for (std::size_t cell = 0; cell < counts.size(); ++cell) {
+      if (counts[cell] > 2 * fair)
+        cells.cutAgain(cell, boxes, static_cast<std::size_t>((counts[cell] + fair - 1) / fair));
+    }
+  }
+  return cells.size();
+}
+
+/// Cells of few boxes have many copies, so that many have more boxes than their share.
+TEST(Join, APlanForManyRanksHasAsManyCellsAsTheyMake) {
+  const std::vector<Box> boxes = toDouble(randomBoxes(20'000, 13));
+  const JoinCase with(boxes);
+  for (const std::size_t ranks : {2U, 64U, 128U})
+    EXPECT_EQ(join::planRanks(with.paths, ranks, {}).cells, cellsOfRanks(boxes, ranks)) << ranks;
 }
 
 /// Ranks cut space for all boxes, not for those that a region leaves.

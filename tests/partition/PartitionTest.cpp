@@ -126,6 +126,41 @@ TEST(Partition, ACellIsCutAgainAndTheOthersStay) {
   EXPECT_FALSE(partition.cutAgain(2, BoxView(), 4)) << "nothing to go by";
 }
 
+TEST(Partition, CellsAreCutAgainTogetherAsOneAfterTheOther) {
+  std::vector<Box> boxes = test::toDouble(test::randomBoxes(5'000, 5));
+  boxes.push_back({{-kInfinity, -kInfinity, -kInfinity}, {kInfinity, kInfinity, kInfinity}});
+  for (const std::size_t cells : {1U, 2U, 30U}) {
+    Partition together(boxes, cells, 0.5);
+    Partition apart = together;
+    std::vector<CellToCut> given;
+    for (std::size_t number = cells / 4; number < together.size(); number += 3)
+      given.push_back({number, 2 + number % 4});
+    ASSERT_TRUE(together.cutAgain(given, boxes, 0.5));
+    for (const auto& [number, parts] : given) EXPECT_TRUE(apart.cutAgain(number, boxes, parts, 0.5));
+    const std::vector<Cell> found = together.cells();
+    const std::vector<Cell> expected = apart.cells();
+    EXPECT_TRUE(std::is_permutation(found.begin(), found.end(), expected.begin(), expected.end())) << cells;
+    EXPECT_EQ(Partition::fromCuts(together.cuts()).cells(), found);
+    const std::vector<Cell> before = Partition(boxes, cells, 0.5).cells();
+    for (std::size_t i = 0; i < before.size(); ++i) {
+      const bool isGiven =
+          std::any_of(given.begin(), given.end(), [i](const CellToCut& cell) { return cell.number == i; });
+      EXPECT_NE(found[i] == before[i], isGiven) << "cell " << i << " of " << cells;
+    }
+  }
+}
+
+TEST(Partition, CellsThatAreNotThereOrGivenTwiceAreNotCut) {
+  const std::vector<Box> boxes = test::toDouble(test::randomBoxes(500, 5));
+  Partition partition(boxes, 4);
+  const std::vector<Cut> before(partition.cuts().begin(), partition.cuts().end());
+  EXPECT_THROW(partition.cutAgain(std::vector<CellToCut>{{0, 2}, {4, 2}}, boxes), InvalidArgument);
+  EXPECT_THROW(partition.cutAgain(std::vector<CellToCut>{{0, 2}, {1, 2}, {0, 2}}, boxes), InvalidArgument);
+  EXPECT_FALSE(partition.cutAgain(std::vector<CellToCut>(), boxes));
+  EXPECT_FALSE(partition.cutAgain(std::vector<CellToCut>{{0, 0}, {1, 1}}, boxes)) << "into one part";
+  EXPECT_EQ(std::vector<Cut>(partition.cuts().begin(), partition.cuts().end()), before);
+}
+
 TEST(Partition, ACellThatIsCutInTwoKeepsItsNumberForOneHalf) {
   std::vector<Box> boxes;
   for (int i = 0; i < 8; ++i) boxes.push_back(cube(2 * i, 0, 0));

@@ -171,12 +171,12 @@ bool Distribution::cutAgain() {
   std::uint64_t isCut = 0;
   m_ranks.onAll([&] {
     if (m_ranks.rank() != 0) return;
-    const std::size_t before = m_cells.size();
-    for (std::size_t cell = 0; cell < before; ++cell) {
-      if (m_counts[cell] <= 2 * fair) continue;
-      const auto parts = static_cast<std::size_t>((m_counts[cell] + fair - 1) / fair);
-      if (m_cells.cutAgain(cell, m_sample, parts)) isCut = 1;
+    std::vector<partition::CellToCut> full;
+    for (std::size_t cell = 0; cell < m_cells.size(); ++cell) {
+      if (m_counts[cell] > 2 * fair)
+        full.push_back({cell, static_cast<std::size_t>((m_counts[cell] + fair - 1) / fair)});
     }
+    if (m_cells.cutAgain(full, m_sample)) isCut = 1;
   });
   m_ranks.broadcast({&isCut, 1}, 0);
   if (isCut != 0) shareCells();

@@ -28,6 +28,12 @@ struct Cut {
   friend bool operator!=(const Cut& a, const Cut& b) { return !(a == b); }
 };
 
+/// A cell that is to be cut again, into about so many parts.
+struct CellToCut {
+  std::size_t number = 0;
+  std::size_t parts = 2;
+};
+
 /// Cells that tile space, made by cutting it in two again and again where a sample of boxes says so.
 ///
 /// Threads: const use from any number of threads.
@@ -101,6 +107,12 @@ class Partition {
   /// Cuts one cell again, into about `parts`; the new cells are numbered after all others. Returns whether a cut
   /// divides the boxes of the sample that touch it.
   bool cutAgain(std::size_t number, const BoxView& sample, std::size_t parts, double distance = 0.0);
+
+  /// The same of several cells. Returns whether any is cut.
+  ///
+  /// Bad input: a number that no cell has, or that is given twice, throws InvalidArgument.
+  /// Cost: O(s log(cells)) for a sample of s boxes that are in few cells, however many are cut.
+  bool cutAgain(Span<const CellToCut> given, const BoxView& sample, double distance = 0.0);
 
  private:
   class Cutter;
