@@ -74,6 +74,18 @@ void writeBoxes(const fs::path& path, std::size_t count) {
   output.commit();
 }
 
+JoinCost costOf(const Folder& folder, std::size_t boxes, const join::JoinOptions& options) {
+  const std::array<fs::path, 1> input{folder.file("boxes.npy")};
+  writeBoxes(input[0], boxes);
+  const Timer timer;
+  (void)join::countFiles(input, options);
+  const double counting = timer.seconds();
+  const join::JoinSummary done = join::joinFiles(input, folder.file("pairs.npy"), options);
+  const double joining = timer.seconds() - counting;
+  return {counting / static_cast<double>(done.boxes + done.copies),
+          std::max(0.0, joining - counting) / static_cast<double>(std::max<std::uint64_t>(done.pairs, 1))};
+}
+
 }  // namespace
 
 double JoinCost::secondsFor(const join::JoinSummary& plan) const {
@@ -85,21 +97,17 @@ JoinCost measureJoinCost(const fs::path& work, const join::JoinSummary& plan, jo
   const StopOnSignal signals;  // before the folder, which is gone when the program ends
   options.stop = signals.flag();
   const Folder folder(work);
-  const std::array<fs::path, 1> input{folder.file("boxes.npy")};
-  writeBoxes(input[0], boxesFor(plan, options.memory));
   options.work = folder.file("work");
   options.second.clear();
   options.distance = 0.0;  // one of the user's units may be more than the whole scene
   options.region.reset();
   options.values = {};
   options.secondValues = {};
-  const Timer timer;
-  (void)join::countFiles(input, options);
-  const double counting = timer.seconds();
-  const join::JoinSummary done = join::joinFiles(input, folder.file("pairs.npy"), options);
-  const double joining = timer.seconds() - counting;
-  return {counting / static_cast<double>(done.boxes + done.copies),
-          std::max(0.0, joining - counting) / static_cast<double>(std::max<std::uint64_t>(done.pairs, 1))};
+  try {
+    return costOf(folder, boxesFor(plan, options.memory), options);
+  } catch (const FileError& problem) {  // of a file that is gone by now
+    throw FileError(work, "the time of a join cannot be measured there: " + problem.problem(), problem.code());
+  }
 }
 
 }  // namespace allpairs::app

@@ -337,6 +337,16 @@ TEST_F(JoinCommand, APlanOfFewBoxesJoinsFewToMeasureTheTime) {
   EXPECT_NE(run.out.find("\ntime     about "), std::string::npos) << run.out;
 }
 
+TEST_F(JoinCommand, APlanWhereNothingCanBeWrittenNamesTheFolderThatWasGiven) {
+  const ProgramRun run =
+      runScript("cd '" + folder.path().string() + "' && ulimit -f 64 && exec \"$0\" plan few.npy --work there");
+  EXPECT_NE(run.out.find("\nresult   about "), std::string::npos) << run.out;
+  EXPECT_EQ(run.status, kBadInput);
+  EXPECT_EQ(run.err,
+            "allpairs: there: the time of a join cannot be measured there: cannot be written: File too large\n");
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), 1) << "what was made to measure is gone";
+}
+
 /// A distance in the boxes' own units says nothing of the boxes that are made to measure.
 TEST_F(JoinCommand, APlanMeasuresTheTimeWithoutTheDistance) {
   for (const char* distance : {"1e9", "-1e9"}) {
