@@ -38,7 +38,7 @@ fs::path checkedTarget(const fs::path& target) {
 
 }  // namespace
 
-PairFile::PairFile(MPI_Comm communicator, const fs::path& target) : m_communicator(communicator), m_target(target) {
+PairFile::PairFile(MPI_Comm communicator, const fs::path& target) : m_communicator(communicator), m_given(target) {
   MPI_Comm_rank(communicator, &m_rank);
   try {
     mpi::onAllRanks(communicator, [this] {
@@ -62,7 +62,7 @@ void PairFile::close() {
 
 /// A new file of a name that nobody has, short whatever the target's is.
 void PairFile::create() {
-  m_target = checkedTarget(m_target);
+  m_target = checkedTarget(m_given);
   m_part = (m_target.parent_path() / ".allpairs-mpi-XXXXXX").string();
   m_descriptor = ::mkostemp(m_part.data(), O_CLOEXEC);
   if (m_descriptor < 0) {
@@ -141,7 +141,7 @@ void PairFile::writeAt(std::uint64_t position, const void* bytes, std::size_t co
 }
 
 void PairFile::fail(const char* action, int problem) const {
-  throw FileError::ofSystem(m_target, std::string("cannot be ") + action, {problem, std::generic_category()});
+  throw FileError::ofSystem(m_given, std::string("cannot be ") + action, {problem, std::generic_category()});
 }
 
 }  // namespace allpairs::app

@@ -40,8 +40,9 @@ class PairFile {
   [[noreturn]] void fail(const char* action, int problem) const;
 
   MPI_Comm m_communicator;
-  std::filesystem::path m_target;
-  std::string m_part;  ///< Where it is until it is complete; empty while, or after, it is not there.
+  std::filesystem::path m_given;   ///< What errors name.
+  std::filesystem::path m_target;  ///< The same, or what it leads to where it is a link.
+  std::string m_part;              ///< Where it is until it is complete; empty while, or after, it is not there.
   int m_descriptor = -1;
   int m_rank = 0;
 };

@@ -330,7 +330,7 @@ def test_a_full_disk_is_an_error_and_what_was_there_stays(tmp_path):
     limited = f"ulimit -f 16384; exec {MPIRUN} -n 2 {MPI_PROGRAM} join boxes.npy -o pairs.npy"  # 36 MB
     done = subprocess.run(["bash", "-c", limited], cwd=tmp_path, capture_output=True, text=True, timeout=300)
     assert done.returncode == 3, done.stderr
-    assert "pairs.npy: cannot be written" in done.stderr
+    assert "allpairs-mpi: pairs.npy: cannot be written: File too large\n" in done.stderr
     assert (tmp_path / "pairs.npy").read_text() == "of before"
     assert len(list(tmp_path.iterdir())) == 2
 
@@ -352,6 +352,12 @@ def test_any_name_of_a_file_and_a_link(tmp_path):
     mpirun(2, "join", tmp_path / "boxes.npy", "-o", tmp_path / "to-nothing.npy")
     assert (tmp_path / "to-nothing.npy").is_symlink()
     assert digest(tmp_path / "new.npy") == digest(long)
+    for name in ("PAIRS.NPY", "pairs"):
+        mpirun(2, "join", tmp_path / "boxes.npy", "-o", tmp_path / name)
+        assert digest(tmp_path / name) == digest(long)
+    for name in (tmp_path / "pairs.csv", "-"):
+        assert "allpairs-mpi: " in mpirun(2, "join", tmp_path / "boxes.npy", "-o", name, status=2).stderr
+        assert not os.path.exists(name)
 
 
 @needs_mpi
