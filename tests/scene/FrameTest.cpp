@@ -43,10 +43,10 @@ std::string collada(const std::string& up) {
 }
 
 /// The same in FBX, which numbers the axis that is up; one that it has not is none.
-std::string fbx(int up) {
+std::string fbx(int up, const std::string& unit = {}) {
   return "; FBX 7.3.0 project file\nFBXHeaderExtension:  {\n\tFBXHeaderVersion: 1003\n\tFBXVersion: 7300\n}\n"
          "GlobalSettings:  {\n\tVersion: 1000\n\tProperties70:  {\n\t\tP: \"UpAxis\", \"int\", \"Integer\", \"\"," +
-         std::to_string(up) + R"(
+         std::to_string(up) + unit + R"(
 	}
 }
 Objects:  {
@@ -82,15 +82,51 @@ std::string chunk(std::uint16_t kind, const std::string& content) {
   return bytes + content;
 }
 
-/// The same triangle in 3DS.
-std::string triangleIn3ds() {
+/// The same triangle in 3DS, with a scale of the whole, if it is given one.
+std::string triangleIn3ds(std::optional<float> masterScale = {}) {
+  std::string scale;
+  if (masterScale) appendNumber(scale, *masterScale, false);
+  if (masterScale) scale = chunk(0x0100, scale);
   std::string vertices;
   appendNumber(vertices, std::uint16_t{3}, false);
   for (const float x : {1.0F, 2.0F, 3.0F, 5.0F, 2.0F, 3.0F, 1.0F, 9.0F, 4.0F}) appendNumber(vertices, x, false);
   std::string faces;
   for (const int number : {1, 0, 1, 2, 7}) appendNumber(faces, static_cast<std::uint16_t>(number), false);
   const std::string mesh = chunk(0x4100, chunk(0x4110, vertices) + chunk(0x4120, faces));
-  return chunk(0x4D4D, chunk(0x3D3D, chunk(0x4000, std::string("part") + '\0' + mesh)));
+  return chunk(0x4D4D, chunk(0x3D3D, scale + chunk(0x4000, std::string("part") + '\0' + mesh)));
+}
+
+constexpr const char* kTriangleInDxf =
+    "0\nSECTION\n2\nENTITIES\n0\n3DFACE\n8\nwalls\n10\n1\n20\n2\n30\n3\n11\n5\n21\n2\n31\n3\n12\n1\n22\n9\n32\n4\n"
+    "13\n1\n23\n9\n33\n4\n0\nENDSEC\n0\nEOF\n";
+
+constexpr const char* kTriangleInAse = R"(*3DSMAX_ASCIIEXPORT 200
+*GEOMOBJECT {
+	*NODE_NAME "part"
+	*MESH {
+		*MESH_NUMVERTEX 3
+		*MESH_NUMFACES 1
+		*MESH_VERTEX_LIST {
+			*MESH_VERTEX 0 1 2 3
+			*MESH_VERTEX 1 5 2 3
+			*MESH_VERTEX 2 1 9 4
+		}
+		*MESH_FACE_LIST {
+			*MESH_FACE 0: A: 0 B: 1 C: 2 AB: 1 BC: 1 CA: 1 *MESH_SMOOTHING 0 *MESH_MTLID 0
+		}
+	}
+}
+)";
+
+constexpr const char* kTriangleInDirectX = "xof 0303txt 0032\nMesh m { 3; 1;2;3;, 5;2;3;, 1;9;4;; 1; 3;0,1,2;; }\n";
+
+std::string amf(const std::string& attributes) {
+  return "<?xml version=\"1.0\"?>\n<amf" + attributes +
+         R"(><object id="1"><mesh><vertices>
+<vertex><coordinates><x>1</x><y>2</y><z>3</z></coordinates></vertex>
+<vertex><coordinates><x>5</x><y>2</y><z>3</z></coordinates></vertex>
+<vertex><coordinates><x>1</x><y>9</y><z>4</z></coordinates></vertex></vertices>
+<volume><triangle><v1>0</v1><v2>1</v2><v3>2</v3></triangle></volume></mesh></object></amf>)";
 }
 
 constexpr const char* kTriangleInGltf = R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
@@ -133,6 +169,10 @@ TEST(Frame, OtherFormatsHaveTheCoordinatesOfTheirFilesAndTheirAxis) {
     }
     read.emplace_back(readFrame("a.x3d", kTriangleInX3d), 2);
     read.emplace_back(readFrame("a.3ds", triangleIn3ds()), 3);
+    read.emplace_back(readFrame("a.3ds", triangleIn3ds(2.0F)), 3);
+    read.emplace_back(readFrame("a.dxf", kTriangleInDxf), 3);
+    read.emplace_back(readFrame("a.ase", kTriangleInAse), 3);
+    read.emplace_back(readFrame("a.x", kTriangleInDirectX), 0);
     return read;
   }();
   for (std::size_t i = 0; i < scenes.size(); ++i) {
@@ -142,6 +182,20 @@ TEST(Frame, OtherFormatsHaveTheCoordinatesOfTheirFilesAndTheirAxis) {
     EXPECT_EQ(scene.up, up) << i;
     EXPECT_EQ(scene.metresPerUnit, std::nullopt) << i;
   }
+}
+
+TEST(Frame, FbxAndAmfHaveTheUnitThatTheyName) {
+  const auto unit = [](const std::string& name, const std::string& bytes) {
+    return readFrame(name, bytes).metresPerUnit;
+  };
+  const std::string property = "\n\t\tP: \"UnitScaleFactor\", \"double\", \"Number\", \"\",";
+  EXPECT_EQ(unit("a.fbx", fbx(1, property + "1")), 0.01);
+  EXPECT_EQ(unit("a.fbx", fbx(1, property + "2.54")), 0.0254);
+  EXPECT_EQ(unit("a.fbx", fbx(1, "\n\t\tP: \"OriginalUnitScaleFactor\", \"double\", \"Number\", \"\",1")),
+            std::nullopt);
+  EXPECT_EQ(unit("a.amf", amf(" version=\"1.1\" unit=\"inch\"")), 0.0254);
+  EXPECT_EQ(unit("a.amf", amf("")), 0.001);
+  EXPECT_EQ(unit("a.amf", amf(" unit='meter'")), 1.0);
 }
 
 TEST(Frame, GltfIsYUpAndInMetresAndStlSaysNothing) {

@@ -22,9 +22,13 @@
 #include "input/ReadScope.h"
 #include "input/UniqueNames.h"
 #include "input/Words.h"
+#include "mesh/AmfFile.h"
 #include "mesh/Assemblies.h"
 #include "mesh/AssimpFrame.h"
+#include "mesh/AssimpLog.h"
+#include "mesh/AssimpWarnings.h"
 #include "mesh/ChildProcess.h"
+#include "mesh/DxfFile.h"
 #include "mesh/Faces.h"
 #include "mesh/IfcNames.h"
 #include "mesh/MeshObject.h"
@@ -90,6 +94,13 @@ bool isSpatial(std::string_view kind) {
   return std::find(kSpatial.begin(), kSpatial.end(), kind) != kSpatial.end();
 }
 
+/// Whether products of a class have no body: holes, and what drawings show.
+bool isWithoutBody(std::string_view kind) {
+  static constexpr std::array<std::string_view, 5> kBodiless{"IfcOpeningElement", "IfcVoidingFeature",
+                                                             "IfcVirtualElement", "IfcAnnotation", "IfcGrid"};
+  return isSpatial(kind) || std::find(kBodiless.begin(), kBodiless.end(), kind) != kBodiless.end();
+}
+
 class NodeReader {
  public:
   NodeReader(const aiScene& scene, const Path& path, ReadScope& scope)
@@ -107,6 +118,9 @@ class NodeReader {
     }
     return std::move(m_objects);
   }
+
+  /// The names of products that should have a body, and of which nothing is shown.
+  [[nodiscard]] const std::vector<std::string>& shapeless() const { return m_shapeless; }
 
  private:
   static constexpr std::size_t kNone = NestedNode::kNoParent;
@@ -128,6 +142,7 @@ class NodeReader {
   void addNode(const aiNode& node, const Transform& world, Place place, std::size_t depth) {
     if (depth > kMaxNodeDepth) throw FileError(m_path, "has nodes that are nested too deep");
     const bool isProduct = m_isIfc && enterProduct(node, place);
+    const std::size_t before = m_objects.size();
     if (!isStepOfTransform(node)) {
       m_nodes.push_back({place.node, node.mNumMeshes != 0, isProduct ? m_products.back().name : nodeNameOf(node)});
       place.node = m_nodes.size() - 1;
@@ -136,6 +151,9 @@ class NodeReader {
     for (const aiNode* child : spanOf(node.mChildren, node.mNumChildren)) {
       addNode(*child, multiply(world, transformOf(child->mTransformation)), place, depth + 1);
     }
+    if (!isProduct || m_objects.size() != before) return;
+    const IfcProduct& product = m_products[place.product];
+    if (!isWithoutBody(product.kind)) m_shapeless.push_back(product.name);
   }
 
   /// Where the node is a product, it is what those below are parts of.
@@ -251,6 +269,7 @@ class NodeReader {
   std::vector<NestedItem> m_inNodes;  ///< Of each product the node that it is in.
   std::vector<Origin> m_origins;      ///< Of each object.
   std::vector<MeshObject> m_objects;
+  std::vector<std::string> m_shapeless;
   std::vector<std::uint32_t> m_corners;
 };
 
@@ -302,17 +321,30 @@ class ScopedFiles final : public Assimp::IOSystem {
 /// Carries objects from one process to another of the same program.
 class ObjectTransfer {
  public:
-  static std::string pack(const std::vector<MeshObject>& objects, const MeshFrame& frame) {
+  static std::string pack(const std::vector<MeshObject>& objects, const MeshFrame& frame,
+                          const std::vector<FileWarning>& warnings) {
     std::string bytes(1, kResult);
     bytes.append(reinterpret_cast<const char*>(&frame), sizeof(frame));
+    const std::uint64_t count = warnings.size();
+    bytes.append(reinterpret_cast<const char*>(&count), sizeof(count));
+    for (const FileWarning& warning : warnings) {
+      put(bytes, warning.subject);
+      put(bytes, warning.reason);
+    }
     for (const MeshObject& object : objects) forEachPart(object, [&bytes](const auto& part) { put(bytes, part); });
     return bytes;
   }
 
-  static std::vector<MeshObject> unpack(std::string_view bytes, MeshFrame& frame) {
+  static std::vector<MeshObject> unpack(std::string_view bytes, MeshFrame& frame, std::vector<FileWarning>& warnings) {
     std::vector<MeshObject> objects;
     copy(bytes, &frame, sizeof(frame));
     if (frame.up < 0 || frame.up > 3) frame = {};
+    std::uint64_t count = 0;
+    for (copy(bytes, &count, sizeof(count)); count > 0; --count) {
+      FileWarning& warning = warnings.emplace_back();
+      take(bytes, warning.subject);
+      take(bytes, warning.reason);
+    }
     while (!bytes.empty()) {
       MeshObject& object = objects.emplace_back();
       forEachPart(object, [&bytes](auto& part) { take(bytes, part); });
@@ -371,7 +403,9 @@ class ObjectTransfer {
   }
 };
 
-std::vector<MeshObject> importObjects(const Path& path, ReadScope& scope, MeshFrame& frame) {
+std::vector<MeshObject> importObjects(const Path& path, ReadScope& scope, MeshFrame& frame,
+                                      std::vector<FileWarning>& warnings) {
+  const AssimpLog& log = AssimpLog::start();
   Assimp::Importer importer;
   auto owned = std::make_unique<ScopedFiles>(path, scope);
   const ScopedFiles* files = owned.get();
@@ -385,15 +419,22 @@ std::vector<MeshObject> importObjects(const Path& path, ReadScope& scope, MeshFr
     if (reason == std::bad_alloc().what()) throw std::bad_alloc();  // which Assimp has caught
     throw FileError(path, "cannot be read as a mesh" + (reason.empty() ? "" : ": " + reason));
   }
-  return NodeReader(*scene, path, scope).read(frame);
+  if (log.parts() > 1) throw FileError(path, "has objects in several parts, which are not read: export it as one part");
+  NodeReader reader(*scene, path, scope);
+  std::vector<MeshObject> objects = reader.read(frame);
+  if (lowerExtension(path) == ".fbx") frame.metresPerUnit = unitOfFbx(*scene, readText(path));
+  warnOfMissing(log.missingKinds(), reader.shapeless(), warnings);
+  warnOfRounding(objects, frame.metresPerUnit, warnings);
+  return objects;
 }
 
 /// The objects, or what is wrong.
 std::string importInChild(const Path& path, ReadScope& scope) {
   try {
     MeshFrame frame;
-    const std::vector<MeshObject> objects = importObjects(path, scope, frame);
-    return ObjectTransfer::pack(objects, frame);
+    std::vector<FileWarning> warnings;
+    const std::vector<MeshObject> objects = importObjects(path, scope, frame, warnings);
+    return ObjectTransfer::pack(objects, frame, warnings);
   } catch (const FileError& problem) {
     return kProblem + problem.problem();
   } catch (const std::bad_alloc&) {
@@ -417,7 +458,11 @@ bool isAssimpFile(const Path& path) {
   return !extension.empty() && !isCadFile(path) && Assimp::Importer().IsExtensionSupported(extension.c_str());
 }
 
-std::vector<MeshObject> readAssimpObjects(const Path& path, ReadScope& scope, MeshFrame& frame) {
+std::vector<MeshObject> readAssimpObjects(const Path& path, ReadScope& scope, MeshFrame& frame,
+                                          std::vector<FileWarning>& warnings) {
+  const std::string extension = lowerExtension(path);
+  const double amfUnit = extension == ".amf" ? checkedAmfUnit(path, scope) : 0.0;
+  if (extension == ".dxf") checkDxf(path, scope, warnings);
   constexpr std::uint64_t kSeconds = 10;
   constexpr std::uint64_t kBytesPerSecond = 1 << 20;       // the slowest of Assimp's readers on honest files
   const std::uint64_t size = InputFile(path).remaining();  // what is no file is refused here
@@ -426,7 +471,9 @@ std::vector<MeshObject> readAssimpObjects(const Path& path, ReadScope& scope, Me
                                         [&scope](std::uint64_t bytes) { scope.take(2 * bytes); });
   if (answer.empty()) throw FileError(path, "cannot be read as a mesh: Assimp fails on it");
   if (answer.front() == kProblem) throw FileError(path, answer.substr(1));
-  return ObjectTransfer::unpack(std::string_view(answer).substr(1), frame);
+  std::vector<MeshObject> objects = ObjectTransfer::unpack(std::string_view(answer).substr(1), frame, warnings);
+  if (extension == ".amf") frame.metresPerUnit = amfUnit;
+  return objects;
 }
 
 }  // namespace allpairs::scene

@@ -54,10 +54,23 @@ double asWritten(double value) {
   return std::round(value * digits) / digits;
 }
 
+/// What Assimp does to make the coordinates of DirectX right-handed, which takes itself back.
+constexpr Transform kMirror{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, -1, 0}}};
+
 int upOfMetadata(const aiScene& scene) {
   int axis = -1;
   if (scene.mMetaData == nullptr || !scene.mMetaData->Get("UpAxis", axis)) return 0;
   return axis >= 0 && axis < 3 ? axis + 1 : 0;
+}
+
+/// Whether an FBX says how long its unit is; Assimp says a centimetre where it does not. In binary files a name has its
+/// length before it.
+bool saysUnit(std::string_view bytes) {
+  constexpr std::string_view kName = "UnitScaleFactor";
+  for (std::size_t at = bytes.find(kName); at != std::string_view::npos; at = bytes.find(kName, at + 1)) {
+    if (at > 0 && (bytes[at - 1] == '"' || bytes[at - 1] == '\0')) return true;  // OriginalUnitScaleFactor is another
+  }
+  return false;
 }
 
 bool isOneOf(std::string_view extension, std::initializer_list<std::string_view> some) {
@@ -89,13 +102,22 @@ Transform rootOfFile(const aiScene& scene, const std::string& extension, MeshFra
     if (isTurn(root, scale, kFromXUp)) frame.up = 1;
     return before(root, asWritten(scale), frame.up == 3 ? kFromZUp : (frame.up == 1 ? kFromXUp : kNone));
   }
-  if (isOneOf(extension, {".3ds", ".blend"})) {
+  if (isOneOf(extension, {".3ds", ".ase", ".ask", ".blend", ".dxf"})) {  // a 3DS may have a scale besides
     frame.up = 3;
-    return isTurn(root, 1.0, kFromZUp) ? before(root, 1.0, kFromZUp) : root;
+    return isTurn(root, scale, kFromZUp) ? before(root, scale, kFromZUp) : root;
   }
+  if (extension == ".x") return multiply(kMirror, root);
   if (extension == ".fbx") frame.up = upOfMetadata(scene);
   if (isOneOf(extension, {".x3d", ".wrl"})) frame.up = 2;
   return root;
+}
+
+double unitOfFbx(const aiScene& scene, std::string_view bytes) {
+  constexpr double kCentimetre = 0.01;
+  float factor = 0.0F;
+  if (scene.mMetaData == nullptr || !saysUnit(bytes) || !scene.mMetaData->Get("UnitScaleFactor", factor)) return 0.0;
+  const auto written = static_cast<double>(factor);
+  return written > 0.0 && std::isfinite(written) ? asWritten(kCentimetre * written) : 0.0;
 }
 
 }  // namespace allpairs::scene

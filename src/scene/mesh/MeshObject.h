@@ -43,6 +43,12 @@ struct MeshFrame {
   double metresPerUnit = 0.0;  ///< 0: unknown.
 };
 
+/// What a user should know of a file that was read, as a warning of a scene says it.
+struct FileWarning {
+  std::string subject;
+  std::string reason;
+};
+
 /// Reads a Wavefront file in double, with the names exactly as they stand there: an object for each "o", or for each
 /// "g" where there is no "o". A file of nothing but positions is one object of points.
 ///
@@ -77,11 +83,12 @@ struct MeshFrame {
 /// Reads what else Assimp reads: an object for each node that shows a mesh, with the node's transform applied in double
 /// to positions that Assimp gives as float32. Coordinates are those of the file: what Assimp does to turn y up and to
 /// measure in metres, as for IFC, is undone, and `frame` says which axis is up in the file and how long its unit is.
+/// `warnings` says which shapes of an IFC Assimp does not read, and how coordinates far from the origin are rounded.
 ///
 /// Bad input: throws FileError. Assimp runs in a process of its own: a file that makes it fail, or loop, or take all
 ///            memory, fails, loops and takes it there.
 [[nodiscard]] std::vector<MeshObject> readAssimpObjects(const std::filesystem::path& path, ReadScope& scope,
-                                                        MeshFrame& frame);
+                                                        MeshFrame& frame, std::vector<FileWarning>& warnings);
 
 /// Whether a file is of CAD's exact surfaces, by its extension, and what to say of it then.
 [[nodiscard]] bool isCadFile(const std::filesystem::path& path);

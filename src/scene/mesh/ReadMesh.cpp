@@ -31,8 +31,14 @@ namespace fs = std::filesystem;
 /// Of a folder that has other files to read; the other commands do not take it.
 constexpr const char* kPartialHint = "; --partial of detect, info, view and report leaves it out";
 
-std::vector<MeshObject> readObjects(const fs::path& path, ReadScope& scope, MeshFrame& frame,
-                                    std::vector<std::string>& passedOver) {
+/// What readers say of a file besides its objects.
+struct FileNotes {
+  MeshFrame frame;
+  std::vector<std::string> passedOver;  ///< For remarks.
+  std::vector<FileWarning> warnings;
+};
+
+std::vector<MeshObject> readObjects(const fs::path& path, ReadScope& scope, FileNotes& notes) {
   scope.admit(path);
   std::error_code ignored;
   if (fs::file_size(path, ignored) == 0) throw FileError(path, "is empty");
@@ -41,9 +47,11 @@ std::vector<MeshObject> readObjects(const fs::path& path, ReadScope& scope, Mesh
   if (extension == ".ply") return readPlyObjects(path, scope);
   if (extension == ".stl") return readStlObjects(path, scope);
   if (extension == ".off") return readOffObjects(path, scope);
-  if (extension != ".gltf" && extension != ".glb") return readAssimpObjects(path, scope, frame);
-  frame = {.up = 2, .metresPerUnit = 1.0};  // as its specification has it
-  return readGltfObjects(path, scope, passedOver);
+  if (extension != ".gltf" && extension != ".glb") {
+    return readAssimpObjects(path, scope, notes.frame, notes.warnings);
+  }
+  notes.frame = {.up = 2, .metresPerUnit = 1.0};  // as its specification has it
+  return readGltfObjects(path, scope, notes.passedOver);
 }
 
 /// The models of an object's triangles, its lines and its points, where it has any.
@@ -212,10 +220,9 @@ void readInto(Scene& scene, const fs::path& path, ReadScope& scope) {
   UniqueNames names;
   const std::size_t models = scene.models.size();
   const std::size_t owners = scene.owners.size();
-  MeshFrame frame;
-  std::vector<std::string> passedOver;
+  FileNotes notes;
   try {
-    std::vector<MeshObject> objects = readObjects(path, scope, frame, passedOver);
+    std::vector<MeshObject> objects = readObjects(path, scope, notes);
     for (MeshObject& object : objects) {
       if (object.name.empty()) object.name = path.filename().string();
       names.note(object.name);
@@ -235,8 +242,12 @@ void readInto(Scene& scene, const fs::path& path, ReadScope& scope) {
     if (dynamic_cast<const InvalidArgument*>(&problem) != nullptr) throw FileError(path, problem.what());
     throw;
   }
-  for (std::string& reason : passedOver)
+  for (std::string& reason : notes.passedOver)
     scene.remarks.push_back({.file = path, .subject = path.filename().string(), .reason = std::move(reason)});
+  for (FileWarning& warning : notes.warnings)
+    scene.warnings.push_back(
+        {.file = path, .subject = std::move(warning.subject), .reason = std::move(warning.reason)});
+  const MeshFrame& frame = notes.frame;
   noteFrame(scene, path, frame.up, frame.metresPerUnit > 0.0 ? std::optional(frame.metresPerUnit) : std::nullopt);
 }
 

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#include "mesh/AssimpLog.h"
+
+#include <algorithm>
+#include <array>
+#include <assimp/DefaultLogger.hpp>
+
+#include "input/Words.h"
+
+namespace allpairs::scene {
+namespace {
+
+/// Whether items of an IFC's representation are lines, points, texts and the like, which no body is missing for.
+bool isNoBody(std::string_view kind) {
+  static constexpr std::array<std::string_view, 7> kParts{"Curve",   "Polyline", "Annotation", "TextLiteral",
+                                                          "Ellipse", "Circle",   "LightSource"};
+  static constexpr std::array<std::string_view, 9> kKinds{"IfcLine",   "IfcGeometricSet",   "IfcDefinedSymbol",
+                                                          "IfcPoint",  "IfcCartesianPoint", "IfcPlacement",
+                                                          "IfcVector", "IfcDirection",      "IfcPlanarExtent"};
+  return std::find(kKinds.begin(), kKinds.end(), kind) != kKinds.end() ||
+         std::any_of(kParts.begin(), kParts.end(),
+                     [kind](std::string_view part) { return kind.find(part) != std::string_view::npos; });
+}
+
+/// The word behind a text; empty where the text is not there.
+std::string_view wordBehind(std::string_view message, std::string_view text) {
+  const std::size_t at = message.find(text);
+  if (at == std::string_view::npos) return {};
+  std::string_view rest = message.substr(at + text.size());
+  return takeWord(rest);
+}
+
+}  // namespace
+
+const AssimpLog& AssimpLog::start() {
+  auto* const log = new AssimpLog;
+  Assimp::DefaultLogger::set(log);
+  return *log;
+}
+
+void AssimpLog::OnWarn(const char* message) { note(message); }
+void AssimpLog::OnError(const char* message) { note(message); }
+
+void AssimpLog::note(std::string_view message) {
+  if (message.starts_with("Ignored file of unknown type:") && message.ends_with(".model")) ++m_parts;
+  if (!message.starts_with("IFC: ")) return;
+  const std::string_view kind = wordBehind(message, "type is ");
+  const bool isItem = wordBehind(message, "skipping unknown ") == "IfcGeometricRepresentationItem";
+  if (!kind.empty() && !(isItem && isNoBody(kind))) m_missing.emplace(kind);
+  const std::string_view operation = wordBehind(message, "unsupported boolean operator: ");
+  if (!operation.empty()) m_missing.insert("IfcBooleanResult of " + lowerCase(operation));
+  if (message.ends_with("(IfcSweptDiskSolid)")) m_missing.emplace("IfcSweptDiskSolid");
+}
+
+}  // namespace allpairs::scene

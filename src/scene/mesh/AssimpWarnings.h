@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <set>
+#include <string>
+#include <vector>
+
+#include "mesh/MeshObject.h"
+
+namespace allpairs::scene {
+
+/// Says what is missing in the objects of an IFC: kinds of shapes that are not read, and the names of products of which
+/// nothing is shown.
+void warnOfMissing(const std::set<std::string>& kinds, const std::vector<std::string>& shapeless,
+                   std::vector<FileWarning>& warnings);
+
+/// Says how much Assimp, which computes in float32, rounds coordinates that are far from the origin; metresPerUnit is 0
+/// where it is unknown.
+void warnOfRounding(const std::vector<MeshObject>& objects, double metresPerUnit, std::vector<FileWarning>& warnings);
+
+}  // namespace allpairs::scene

@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: MIT
+// What Assimp leaves out, puts in wrong places or rounds is not silent.
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "allpairs/scene/FileError.h"
+#include "allpairs/scene/ReadInput.h"
+#include "allpairs/scene/WriteResult.h"
+#include "support/IfcText.h"
+#include "support/Npy.h"
+#include "support/TempFolder.h"
+
+namespace allpairs::test {
+namespace {
+
+/// The names of the models that are read, and behind them the warnings.
+std::vector<std::string> namesAndWarnings(const std::string& name, const std::string& bytes) {
+  const TempFolder folder;
+  const scene::Scene scene = scene::readInput(folder.write(name, bytes));
+  std::vector<std::string> lines;
+  for (const auto& model : scene.models) lines.push_back(model->getName());
+  for (const scene::Remark& warning : scene.warnings) {
+    EXPECT_EQ(warning.file.filename(), name);
+    lines.push_back(warning.subject + ": " + warning.reason);
+  }
+  return lines;
+}
+
+std::string problemReading(const std::string& name, const std::string& bytes) {
+  const TempFolder folder;
+  try {
+    static_cast<void>(scene::readInput(folder.write(name, bytes)));
+  } catch (const FileError& problem) {
+    return std::to_string(problem.line()) + ": " + problem.problem();
+  }
+  return "none";
+}
+
+using Said = std::vector<std::string>;
+
+/// The IFC with another text in place of one of its statements.
+std::string ifcWith(const std::string& statement, const std::string& other) {
+  std::string text = kIfc;
+  const std::size_t at = text.find(statement);
+  EXPECT_NE(at, std::string::npos) << statement;
+  return text.replace(at, statement.size(), other);
+}
+
+constexpr const char* kColumnShape = "#37=IFCSHAPEREPRESENTATION(#10,'Body','SweptSolid',(#36));";
+
+TEST(MissingShape, ProductsOfAnIfcWhoseShapesAreNotReadAreNamed) {
+  EXPECT_EQ(namesAndWarnings("two.ifc", kIfc), (Said{"wall", "column"}));
+  const std::string representation = "#37=IFCSHAPEREPRESENTATION(#10,'Body','CSG',(#52));";
+  const std::string block = "#51=IFCBLOCK(#9,1000.,1000.,1000.);\n";
+  EXPECT_EQ(
+      namesAndWarnings("two.ifc", ifcWith(kColumnShape, block + "#52=IFCCSGSOLID(#51);\n" + representation)),
+      (Said{"wall",
+            "shapes: IfcCsgSolid is not read: nothing is there of 'column', and parts of others may be missing"}));
+  EXPECT_EQ(
+      namesAndWarnings("two.ifc", ifcWith(kColumnShape, "#52=IFCBOOLEANRESULT(.UNION.,#36,#36);\n" + representation)),
+      (Said{"wall",
+            "shapes: IfcBooleanResult of union is not read: nothing is there of 'column', and parts of "
+            "others may be missing"}));
+  EXPECT_EQ(namesAndWarnings("two.ifc", ifcWith("#35=IFCRECTANGLEPROFILEDEF(.AREA.,$,#34,1000.,1000.);",
+                                                "#35=IFCUSHAPEPROFILEDEF(.AREA.,$,#34,1000.,500.,10.,10.,$,$,$,$);")),
+            (Said{"wall",
+                  "shapes: IfcUShapeProfileDef is not read: nothing is there of 'column', and parts of others "
+                  "may be missing"}));
+}
+
+TEST(MissingShape, PartsOfProductsOfAnIfcThatAreNotReadAreSaidToBeMissing) {
+  EXPECT_EQ(namesAndWarnings("two.ifc", ifcWith(kColumnShape,
+                                                "#51=IFCBLOCK(#9,1000.,1000.,1000.);\n"
+                                                "#37=IFCSHAPEREPRESENTATION(#10,'Body','SweptSolid',(#36,#51));")),
+            (Said{"wall", "column", "shapes: IfcBlock is not read: parts of products are missing"}));
+}
+
+TEST(MissingShape, AnAxisOfAProductIsNoShapeThatIsMissing) {
+  const std::string axis =
+      "#51=IFCCARTESIANPOINT((1.,0.));\n#52=IFCPOLYLINE((#20,#51));\n#53=IFCSHAPEREPRESENTATION(#10,'Axis','Curve2D',"
+      "(#52));\n#38=IFCPRODUCTDEFINITIONSHAPE($,$,(#53));";
+  EXPECT_EQ(namesAndWarnings("two.ifc", ifcWith("#38=IFCPRODUCTDEFINITIONSHAPE($,$,(#37));", axis)), (Said{"wall"}));
+}
+
+TEST(MissingShape, CoordinatesFarFromTheOriginAreSaidToBeRounded) {
+  const std::string placed = ifcWith("#15=IFCLOCALPLACEMENT($,#9);",
+                                     "#98=IFCCARTESIANPOINT((456789123.,0.,0.));\n"
+                                     "#99=IFCAXIS2PLACEMENT3D(#98,#7,#6);\n#15=IFCLOCALPLACEMENT($,#99);");
+  EXPECT_EQ(namesAndWarnings("two.ifc", placed),
+            (Said{"wall", "column",
+                  "coordinates: up to 4.57e+08 from the origin, where they are rounded by up to 54.5; move the model "
+                  "nearer to it"}));
+}
+
+TEST(MissingShape, ConstellationsOfAnAmfAreAnError) {
+  const std::string text = R"(<?xml version="1.0"?><amf unit="millimeter"><object id="1"><mesh><vertices>
+<vertex><coordinates><x>0</x><y>0</y><z>0</z></coordinates></vertex>
+<vertex><coordinates><x>1</x><y>0</y><z>0</z></coordinates></vertex>
+<vertex><coordinates><x>0</x><y>1</y><z>0</z></coordinates></vertex></vertices><volume>
+<triangle><v1>0</v1><v2>1</v2><v3>2</v3></triangle></volume></mesh></object>
+<constellation id="2"><instance objectid="1"><deltax>5</deltax></instance></constellation></amf>)";
+  EXPECT_EQ(problemReading("a.amf", text),
+            "0: has constellations, which are not read: export each object in its place");
+}
+
+/// An archive whose files are not compressed.
+std::string archiveOf(const std::vector<std::pair<std::string, std::string>>& files) {
+  std::string bytes;
+  std::string directory;
+  const auto append = [](std::string& to, auto... numbers) { (appendNumber(to, numbers, false), ...); };
+  for (const auto& [name, text] : files) {
+    std::uint32_t check = ~0U;
+    for (const char c : text) {
+      check ^= static_cast<unsigned char>(c);
+      for (int bit = 0; bit < 8; ++bit) check = check >> 1U ^ ((check & 1U) != 0 ? 0xEDB88320U : 0U);
+    }
+    std::string common;
+    const auto size = static_cast<std::uint32_t>(text.size());
+    append(common, std::uint16_t{20}, std::uint16_t{0}, std::uint16_t{0}, std::uint32_t{0x21'0000}, ~check, size, size,
+           static_cast<std::uint16_t>(name.size()), std::uint16_t{0});
+    append(directory, std::uint32_t{0x0201'4B50}, std::uint16_t{20});
+    directory += common;
+    append(directory, std::uint16_t{0}, std::uint16_t{0}, std::uint16_t{0}, std::uint32_t{0},
+           static_cast<std::uint32_t>(bytes.size()));
+    directory += name;
+    append(bytes, std::uint32_t{0x0403'4B50});
+    bytes += common + name + text;
+  }
+  const auto begin = static_cast<std::uint32_t>(bytes.size());
+  const auto count = static_cast<std::uint16_t>(files.size());
+  bytes += directory;
+  append(bytes, std::uint32_t{0x0605'4B50}, std::uint32_t{0}, count, count,
+         static_cast<std::uint32_t>(directory.size()), begin, std::uint16_t{0});
+  return bytes;
+}
+
+TEST(MissingShape, ObjectsInSeveralPartsOfA3mfAreAnError) {
+  const std::string types = R"(<Types xmlns="http://schemas.openxmlformats.org/package/2006/content-types">
+<Default Extension="model" ContentType="application/vnd.ms-package.3dmanufacturing-3dmodel+xml"/></Types>)";
+  const std::string relations = R"(<Relationships xmlns="http://schemas.openxmlformats.org/package/2006/relationships">
+<Relationship Target="/3D/a.model" Id="r" Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"/>
+</Relationships>)";
+  const std::string model = R"(<model unit="millimeter"
+xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02"><resources><object id="1" type="model"><mesh><vertices>
+<vertex x="0" y="0" z="0"/><vertex x="1" y="0" z="0"/><vertex x="0" y="1" z="0"/></vertices><triangles>
+<triangle v1="0" v2="1" v3="2"/></triangles></mesh></object></resources><build><item objectid="1"/></build></model>)";
+  std::vector<std::pair<std::string, std::string>> files{
+      {"[Content_Types].xml", types}, {"_rels/.rels", relations}, {"3D/a.model", model}};
+  EXPECT_EQ(namesAndWarnings("a.3mf", archiveOf(files)).size(), 1U);
+  files.emplace_back("3D/Objects/b.model", model);
+  EXPECT_EQ(problemReading("a.3mf", archiveOf(files)),
+            "0: has objects in several parts, which are not read: export it as one part");
+}
+
+/// A drawing: what it has in its blocks, and in itself.
+std::string dxf(const std::string& blocks, const std::string& entities) {
+  return "0\nSECTION\n2\nBLOCKS\n" + blocks + "0\nENDSEC\n0\nSECTION\n2\nENTITIES\n" + entities + "0\nENDSEC\n0\nEOF\n";
+}
+
+constexpr const char* kFace =
+    "0\n3DFACE\n8\nwalls\n10\n1\n20\n2\n30\n3\n11\n5\n21\n2\n31\n3\n12\n1\n22\n9\n32\n4\n13\n1\n23\n9\n33\n4\n";
+
+std::string dxfBlock(const std::string& name, const std::string& entities) {
+  return "0\nBLOCK\n8\n0\n2\n" + name + "\n10\n0\n20\n0\n30\n0\n" + entities + "0\nENDBLK\n";
+}
+
+std::string dxfInsert(const std::string& how) { return "0\nINSERT\n8\nwalls\n2\nB\n10\n10\n20\n20\n30\n30\n" + how; }
+
+TEST(MissingShape, BlocksOfADxfThatAreOnlyMovedAreRead) {
+  const TempFolder folder;
+  for (const char* how : {"", "41\n1.0\n42\n1\n43\n1\n50\n0.0\n70\n1\n71\n0\n210\n0\n220\n0\n230\n1\n"}) {
+    const scene::Scene scene = scene::readInput(folder.write("a.dxf", dxf(dxfBlock("B", kFace), dxfInsert(how))));
+    ASSERT_EQ(scene.models.size(), 1U) << how;
+    scene.models[0]->computeBoundingTree();
+    EXPECT_EQ(scene::modelRecord(*scene.models[0]).box, (Box{{11, 22, 33}, {15, 29, 34}})) << how;
+    EXPECT_TRUE(scene.warnings.empty()) << how;
+  }
+}
+
+TEST(MissingShape, WhatWouldBeInAWrongPlaceInADxfIsAnError) {
+  for (const char* how : {"50\n90\n", "42\n2\n", "70\n3\n", "230\n-1\n", "210\n1\n"}) {
+    EXPECT_EQ(problemReading("a.dxf", dxf(dxfBlock("B", kFace), dxfInsert(how))),
+              "54: an INSERT that turns, scales or repeats its block is not read; explode it")
+        << how;
+  }
+  EXPECT_EQ(problemReading("a.dxf", dxf(dxfBlock("A", kFace) + dxfBlock("B", dxfInsert("")), dxfInsert(""))),
+            "60: a block within a block is not read; explode it");
+  EXPECT_EQ(problemReading("a.dxf", dxf("", std::string(kFace) + "0\nPOLYLINE\n70\n8\n0\nVERTEX\n10\n1\n0\nSEQEND\n")),
+            "40: a POLYLINE that is no polyface mesh is not read; export LINEs");
+  EXPECT_EQ(problemReading("a.dxf",
+                           dxf("", std::string(kFace) +
+                                       "0\nPOLYLINE\n70\n64\n0\nVERTEX\n70\n128\n71\n-1\n72\n2\n73\n3\n0\nSEQEND\n")),
+            "44: a POLYLINE that hides edges of its faces is not read; export 3DFACEs");
+  EXPECT_EQ(problemReading("a.dxf", dxf("", std::string(kFace) + "0\n3DSOLID\n1\nmanm\n")),
+            "40: '3DSOLID' is not read; export 3DFACEs");
+}
+
+TEST(MissingShape, CurvesOfADxfAreNamedAndTextsAndUnusedBlocksAreNot) {
+  const std::string unused = dxfBlock("A", "0\n3DSOLID\n1\nmanm\n" + dxfInsert("50\n90\n"));
+  const std::string curves = "0\nCIRCLE\n40\n5\n0\nARC\n40\n5\n0\nCIRCLE\n40\n6\n";
+  EXPECT_EQ(namesAndWarnings("a.dxf", dxf(unused, std::string(kFace) + "0\nTEXT\n1\nROOM\n")).size(), 1U);
+  const Said lines = namesAndWarnings("a.dxf", dxf(unused, kFace + curves));
+  ASSERT_EQ(lines.size(), 2U);
+  EXPECT_EQ(lines[1], "shapes: 3 of kinds that are not read are missing: ARC, CIRCLE");
+}
+
+}  // namespace
+}  // namespace allpairs::test
