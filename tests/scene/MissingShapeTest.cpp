@@ -79,6 +79,23 @@ TEST(MissingShape, PartsOfProductsOfAnIfcThatAreNotReadAreSaidToBeMissing) {
             (Said{"wall", "column", "shapes: IfcBlock is not read: parts of products are missing"}));
 }
 
+TEST(MissingShape, PortsOfAnIfcHaveNoShapeThatIsMissing) {
+  std::string text = ifcWith("IFCCOLUMN('2AvctVUKr0kugbFTf53O9L',#5,'column',$,$,#32,#38,$)",
+                             "IFCDISTRIBUTIONPORT('2AvctVUKr0kugbFTf53O9L',#5,'port',$,$,#32,$,.SOURCE.)");
+  const std::string shape = "#25=IFCSHAPEREPRESENTATION(#10,'Body','SweptSolid',(#24";
+  text.replace(text.find(shape), shape.size(), "#51=IFCBLOCK(#9,1000.,1000.,1000.);\n" + shape + ",#51");
+  EXPECT_EQ(namesAndWarnings("two.ifc", text),
+            (Said{"wall", "shapes: IfcBlock is not read: parts of products are missing"}));
+}
+
+TEST(MissingShape, AnIfcOfWhichNothingCanBeReadSaysWhy) {
+  std::string text = ifcWith(kColumnShape,
+                             "#51=IFCBLOCK(#9,1000.,1000.,1000.);\n"
+                             "#37=IFCSHAPEREPRESENTATION(#10,'Body','CSG',(#51));");
+  text.replace(text.find("(#24)"), 5, "(#51)");
+  EXPECT_EQ(problemReading("two.ifc", text), "0: holds no triangles, lines or points: IfcBlock is not read");
+}
+
 TEST(MissingShape, AnAxisOfAProductIsNoShapeThatIsMissing) {
   const std::string axis =
       "#51=IFCCARTESIANPOINT((1.,0.));\n#52=IFCPOLYLINE((#20,#51));\n#53=IFCSHAPEREPRESENTATION(#10,'Axis','Curve2D',"

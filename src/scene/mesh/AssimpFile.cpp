@@ -94,11 +94,12 @@ bool isSpatial(std::string_view kind) {
   return std::find(kSpatial.begin(), kSpatial.end(), kind) != kSpatial.end();
 }
 
-/// Whether products of a class have no body: holes, and what drawings show.
+/// Whether products of a class have no body: holes, ports, loads, and what drawings show.
 bool isWithoutBody(std::string_view kind) {
-  static constexpr std::array<std::string_view, 5> kBodiless{"IfcOpeningElement", "IfcVoidingFeature",
-                                                             "IfcVirtualElement", "IfcAnnotation", "IfcGrid"};
-  return isSpatial(kind) || std::find(kBodiless.begin(), kBodiless.end(), kind) != kBodiless.end();
+  static constexpr std::array<std::string_view, 6> kBodiless{
+      "IfcOpeningElement", "IfcVoidingFeature", "IfcAnnotation", "IfcVirtualElement", "IfcDistributionPort", "IfcGrid"};
+  return isSpatial(kind) || kind.starts_with("IfcStructural") ||
+         std::find(kBodiless.begin(), kBodiless.end(), kind) != kBodiless.end();
 }
 
 class NodeReader {
@@ -423,6 +424,8 @@ std::vector<MeshObject> importObjects(const Path& path, ReadScope& scope, MeshFr
   NodeReader reader(*scene, path, scope);
   std::vector<MeshObject> objects = reader.read(frame);
   if (lowerExtension(path) == ".fbx") frame.metresPerUnit = unitOfFbx(*scene, readText(path));
+  if (objects.empty() && !log.missingKinds().empty())
+    throw FileError(path, "holds no triangles, lines or points: " + notRead(log.missingKinds()));
   warnOfMissing(log.missingKinds(), reader.shapeless(), warnings);
   warnOfRounding(objects, frame.metresPerUnit, warnings);
   return objects;

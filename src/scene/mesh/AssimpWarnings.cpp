@@ -21,12 +21,16 @@ std::string firstOf(const std::vector<std::string>& names) {
 
 }  // namespace
 
+std::string notRead(const std::set<std::string>& kinds) {
+  std::string text;
+  for (const std::string& kind : kinds) text += (text.empty() ? "" : ", ") + kind;
+  return text + (kinds.size() == 1 ? " is not read" : " are not read");
+}
+
 void warnOfMissing(const std::set<std::string>& kinds, const std::vector<std::string>& shapeless,
                    std::vector<FileWarning>& warnings) {
   if (kinds.empty()) return;
-  std::string reason;
-  for (const std::string& kind : kinds) reason += (reason.empty() ? "" : ", ") + kind;
-  reason += kinds.size() == 1 ? " is not read: " : " are not read: ";
+  std::string reason = notRead(kinds) + ": ";
   reason += shapeless.empty() ? "parts of products are missing"
                               : "nothing is there of " + firstOf(shapeless) + ", and parts of others may be missing";
   warnings.push_back({"shapes", std::move(reason)});

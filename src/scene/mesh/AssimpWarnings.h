@@ -9,6 +9,9 @@
 
 namespace allpairs::scene {
 
+/// Some kinds of shapes, as a sentence: "IfcCsgSolid is not read".
+[[nodiscard]] std::string notRead(const std::set<std::string>& kinds);
+
 /// Says what is missing in the objects of an IFC: kinds of shapes that are not read, and the names of products of which
 /// nothing is shown.
 void warnOfMissing(const std::set<std::string>& kinds, const std::vector<std::string>& shapeless,
