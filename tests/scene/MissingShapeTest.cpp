@@ -103,6 +103,17 @@ TEST(MissingShape, AnAxisOfAProductIsNoShapeThatIsMissing) {
   EXPECT_EQ(namesAndWarnings("two.ifc", ifcWith("#38=IFCPRODUCTDEFINITIONSHAPE($,$,(#37));", axis)), (Said{"wall"}));
 }
 
+TEST(MissingShape, NodesOfAnX3dThatAreNotReadAreNamed) {
+  const std::string begin = "<?xml version=\"1.0\"?>\n<X3D version=\"3.3\"><Scene>";
+  const std::string box = "<Shape><Box size=\"2 2 2\"/></Shape>";
+  const std::string end = "</Scene></X3D>";
+  const std::string lod = "<LOD>" + box + "</LOD>";
+  EXPECT_EQ(namesAndWarnings("a.x3d", begin + box + "<Viewpoint/><TimeSensor/>" + end), (Said{"a.x3d"}));
+  EXPECT_EQ(namesAndWarnings("a.x3d", begin + box + "<Collision>" + box + "</Collision>" + lod + lod + end),
+            (Said{"a.x3d", "shapes: Collision, LOD are not read: what they hold is missing"}));
+  EXPECT_EQ(problemReading("a.x3d", begin + lod + end), "0: holds no triangles, lines or points: LOD is not read");
+}
+
 TEST(MissingShape, CoordinatesFarFromTheOriginAreSaidToBeRounded) {
   const std::string placed = ifcWith("#15=IFCLOCALPLACEMENT($,#9);",
                                      "#98=IFCCARTESIANPOINT((456789123.,0.,0.));\n"

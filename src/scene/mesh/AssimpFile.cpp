@@ -213,17 +213,20 @@ class NodeReader {
     for (std::size_t i = 0; i < m_objects.size(); ++i) m_objects[i].assembly = assemblies[m_places[i]];
   }
 
+  /// The root of an X3D has the path by which the file is opened.
+  [[nodiscard]] bool isUnnamed(const std::string& name) const { return isMadeUp(name) || name == m_path.string(); }
+
   /// What a node is called as a place; in an IFC only products are places.
   std::string nodeNameOf(const aiNode& node) const {
     const std::string name = node.mName.C_Str();
-    const bool isOfReader = isMadeUp(name) || (name.starts_with('<') && name.ends_with('>'));  // <3DSRoot>
+    const bool isOfReader = isUnnamed(name) || (name.starts_with('<') && name.ends_with('>'));  // <3DSRoot>
     return m_isIfc || isOfReader ? std::string() : name;
   }
 
   /// The node's own name, else that of its mesh, of which Assimp numbers the parts.
   std::string nameOf(const aiNode& node) const {
     std::string name = node.mName.C_Str();
-    if (!isMadeUp(name)) return name;
+    if (!isUnnamed(name)) return name;
     std::string meshName = m_scene.mMeshes[node.mMeshes[0]]->mName.C_Str();
     if (node.mNumMeshes > 1 && meshName.ends_with("-0")) meshName.resize(meshName.size() - 2);
     return isMadeUp(meshName) ? std::string() : meshName;
@@ -424,8 +427,11 @@ std::vector<MeshObject> importObjects(const Path& path, ReadScope& scope, MeshFr
   NodeReader reader(*scene, path, scope);
   std::vector<MeshObject> objects = reader.read(frame);
   if (lowerExtension(path) == ".fbx") frame.metresPerUnit = unitOfFbx(*scene, readText(path));
-  if (objects.empty() && !log.missingKinds().empty())
-    throw FileError(path, "holds no triangles, lines or points: " + notRead(log.missingKinds()));
+  const std::set<std::string>& missing = log.missingKinds().empty() ? log.missingNodes() : log.missingKinds();
+  if (objects.empty() && !missing.empty())
+    throw FileError(path, "holds no triangles, lines or points: " + notRead(missing));
+  if (!log.missingNodes().empty())
+    warnings.push_back({"shapes", notRead(log.missingNodes()) + ": what they hold is missing"});
   warnOfMissing(log.missingKinds(), reader.shapeless(), warnings);
   warnOfRounding(objects, frame.metresPerUnit, warnings);
   return objects;

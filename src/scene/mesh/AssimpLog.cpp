@@ -22,6 +22,15 @@ bool isNoBody(std::string_view kind) {
                      [kind](std::string_view part) { return kind.find(part) != std::string_view::npos; });
 }
 
+/// Whether nodes of an X3D hold shapes, or are some.
+bool holdsShapes(std::string_view node) {
+  static constexpr std::array<std::string_view, 14> kNodes{
+      "Anchor", "Billboard", "CADAssembly", "CADFace", "CADLayer", "CADPart",       "Collision",
+      "Layer",  "LOD",       "LayerSet",    "Text",    "Viewport", "ProtoInstance", "ScreenGroup"};
+  return node.starts_with("Nurbs") || node.starts_with("Geo") || node.starts_with("HAnim") ||
+         std::find(kNodes.begin(), kNodes.end(), node) != kNodes.end();
+}
+
 /// The word behind a text; empty where the text is not there.
 std::string_view wordBehind(std::string_view message, std::string_view text) {
   const std::size_t at = message.find(text);
@@ -36,6 +45,15 @@ const AssimpLog& AssimpLog::start() {
   auto* const log = new AssimpLog;
   Assimp::DefaultLogger::set(log);
   return *log;
+}
+
+void AssimpLog::OnInfo(const char* message) {
+  constexpr std::string_view kSkipping = "Skipping node \"";
+  const std::string_view text = message;
+  if (!text.starts_with(kSkipping)) return;
+  std::string_view node = text.substr(kSkipping.size());
+  node = node.substr(0, node.find('"'));
+  if (holdsShapes(node)) m_missingNodes.emplace(node);
 }
 
 void AssimpLog::OnWarn(const char* message) { note(message); }
