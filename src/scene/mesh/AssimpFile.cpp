@@ -226,7 +226,8 @@ class NodeReader {
   /// The node's own name, else that of its mesh, of which Assimp numbers the parts.
   std::string nameOf(const aiNode& node) const {
     std::string name = node.mName.C_Str();
-    if (!isUnnamed(name)) return name;
+    const bool isRoot = &node == m_scene.mRootNode && name.starts_with('<') && name.ends_with('>');  // <DXF_ROOT>
+    if (!isUnnamed(name) && !isRoot) return name;
     std::string meshName = m_scene.mMeshes[node.mMeshes[0]]->mName.C_Str();
     if (node.mNumMeshes > 1 && meshName.ends_with("-0")) meshName.resize(meshName.size() - 2);
     return isMadeUp(meshName) ? std::string() : meshName;
