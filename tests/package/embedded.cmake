@@ -79,11 +79,12 @@ if(APP)
   endforeach()
 endif()
 
-# A project that is C++17, which ours is not for it, is debugged, and wants no warnings.
+# A project that is C++17, which ours is not for it, is debugged, wants no warnings and is compiled many sources at a time.
 set(SOURCE ${CMAKE_CURRENT_LIST_DIR}/consumer)
 configure_consumer(${WORK}/build -D ALLPAIRS_SOURCE=${ALLPAIRS_SOURCE} -D PARTS=engine,collision -D
                    BUILD_SHARED_LIBS=${SHARED} -D CMAKE_CXX_STANDARD=17
-                   -D CMAKE_BUILD_TYPE=Debug -D CMAKE_COMPILE_WARNING_AS_ERROR=ON)
+                   -D CMAKE_BUILD_TYPE=Debug -D CMAKE_COMPILE_WARNING_AS_ERROR=ON
+                   -D CMAKE_UNITY_BUILD=ON -D CMAKE_UNITY_BUILD_BATCH_SIZE=32)
 expect_steps(${WORK}/build 81 engine collision)
 build_and_run(${WORK}/build)
 expect_built(${WORK}/build liballpairs liballpairs_collision)
