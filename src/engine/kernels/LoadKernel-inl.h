@@ -48,17 +48,14 @@ HWY_INLINE void loadBoxes(const BoxPlaces<float>& places, std::size_t at, FloatV
 
 #else
 
-/// Which values of a box everyFourth() may read: those of its corner only, or its row of six.
-enum class Reach : std::uint8_t { Corner, Row };
-
 /// Three values, or four, that follow each other of every fourth box: those of box 4k are in block k of 128 bits.
-template <Reach kReach, class D>
+template <std::size_t kValues, class D>
 HWY_INLINE hn::Vec<D> everyFourth(D d, const float* values, const std::int32_t* offsets) {
   const hn::Half<D> half;
   if constexpr (hn::MaxLanes(D()) > 4) {
-    return hn::Combine(d, everyFourth<kReach>(half, values, offsets + hn::MaxLanes(D()) / 2),
-                       everyFourth<kReach>(half, values, offsets));
-  } else if constexpr (kReach == Reach::Row) {
+    return hn::Combine(d, everyFourth<kValues>(half, values, offsets + hn::MaxLanes(D()) / 2),
+                       everyFourth<kValues>(half, values, offsets));
+  } else if constexpr (kValues == 4) {
     return hn::LoadU(d, values + offsets[0]);
   } else {
     const hn::Half<decltype(half)> one;
@@ -88,21 +85,21 @@ HWY_INLINE void zipUpper(const FloatVector* from, FloatVector& first, FloatVecto
 /// As many boxes as a vector has lanes, from corners anywhere in memory.
 ///
 /// Corners are loaded and transposed, which takes half the time of gathering each bound. Of a row of six the second
-/// load begins one value before the maximum, so that both are whole vectors.
-template <Reach kReach>
+/// load begins one value before the maximum, so that both are of four values.
+template <std::size_t kValues>
 HWY_INLINE void loadCorners(const BoxPlaces<float>& places, std::size_t at, FloatVector* bound) {
   const FloatTag d;
-  const float* const second = places.bound[3] - (kReach == Reach::Row ? 1 : 0);
+  const float* const second = places.bound[3] - (kValues - 3);
   FloatVector min[4];
   FloatVector max[4];
   for (std::size_t j = 0; j < 4; ++j) {
-    min[j] = everyFourth<kReach>(d, places.bound[0], &places.offset[at + j]);
-    max[j] = everyFourth<kReach>(d, second, &places.offset[at + j]);
+    min[j] = everyFourth<kValues>(d, places.bound[0], &places.offset[at + j]);
+    max[j] = everyFourth<kValues>(d, second, &places.offset[at + j]);
   }
   FloatVector rest;
   zipLower(min, bound[0], bound[1]);
   zipUpper(min, bound[2], rest);
-  if constexpr (kReach == Reach::Row) {
+  if constexpr (kValues == 4) {
     zipLower(max, rest, bound[3]);
     zipUpper(max, bound[4], bound[5]);
   } else {
@@ -125,9 +122,9 @@ HWY_INLINE void loadBoxes(const BoxPlaces<float>& places, std::size_t at, FloatV
     const auto offsets = hn::LoadU(hn::RebindToSigned<FloatTag>(), &places.offset[at]);
     for (std::size_t k = 0; k < 6; ++k) bound[k] = hn::GatherIndex(d, from[k], offsets);
   } else if (from[3] == from[0] + 3) {
-    loadCorners<Reach::Row>(places, at, bound);
+    loadCorners<4>(places, at, bound);
   } else {
-    loadCorners<Reach::Corner>(places, at, bound);
+    loadCorners<3>(places, at, bound);
   }
 }
 

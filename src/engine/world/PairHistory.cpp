@@ -89,8 +89,8 @@ Comparison comparePart(Comparison at) noexcept {
 
 }  // namespace
 
-void PairHistory::begin(std::size_t idBound, std::size_t workers, Joined looksFor) {
-  m_looksFor = looksFor;
+void PairHistory::begin(std::size_t idBound, std::size_t workers, bool looksForAll) {
+  m_looksForAll = looksForAll;
   dropChanges();
   m_rowsAreCurrent = m_rowsAreCurrent && idBound == m_idBound;
   m_idBound = idBound;
@@ -100,9 +100,9 @@ void PairHistory::begin(std::size_t idBound, std::size_t workers, Joined looksFo
     fresh.isInOrder = true;
   }
   const PairOrder order(idBound, idBound, m_options->order, workers);
-  m_usesBuckets = looksFor == Joined::All && !m_comeInOrder && order.packs();
+  m_usesBuckets = looksForAll && !m_comeInOrder && order.packs();
   if (m_usesBuckets) m_sort.start(order, workers, *m_kernels);
-  if (looksFor == Joined::All) return;
+  if (looksForAll) return;
   if (!m_rowsAreCurrent) findRows();
   m_seen.requireAmply(m_result.pairs.size() + 1);
   std::fill_n(m_seen.data(), m_result.pairs.size(), std::uint8_t{0});

@@ -14,7 +14,6 @@
 #include "memory/Memory.h"
 #include "order/PairSort.h"
 #include "search/JoinRunner.h"
-#include "world/RebuildRule.h"
 
 namespace allpairs::engine {
 
@@ -33,14 +32,14 @@ class PairHistory {
   void dropChanges() noexcept { m_result = {m_result.pairs, {}, m_result.pairs, {}}; }
 
   /// Starts a step, without pairs. All ids are below the bound. `workers` is the number of concurrent workers.
-  void begin(std::size_t idBound, std::size_t workers, Joined looksFor);
+  void begin(std::size_t idBound, std::size_t workers, bool looksForAll);
 
   /// Adds pairs that were found, each with first < second and once per step; those of a call may be known to be in
   /// order.
   ///
   /// Threads: one call at a time per worker.
   void take(std::span<const Pair> found, std::size_t worker, bool areInOrder = false) {
-    if (m_looksFor == Joined::Changed) {
+    if (!m_looksForAll) {
       tickOff(found, m_fresh[worker]);
     } else if (m_usesBuckets) {
       m_sort.ofWorker(worker).add(found);
@@ -149,7 +148,7 @@ class PairHistory {
   std::pmr::memory_resource* m_memory;
   const WorldOptions* m_options;
   const Kernels* m_kernels;
-  Joined m_looksFor = Joined::All;
+  bool m_looksForAll = true;
   std::size_t m_idBound = 0;
   std::pmr::vector<Fresh> m_fresh{m_memory};  ///< By worker.
   /// By id: where the pairs of its row begin; one more at the end.

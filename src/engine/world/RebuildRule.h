@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 
@@ -16,9 +15,6 @@ namespace allpairs::engine {
 /// move; --scene slow, of which all do).
 inline constexpr std::size_t kShareOfChange = 8;
 
-/// The boxes that a join tested against the others.
-enum class Joined : std::uint8_t { All, Changed };
-
 /// Decides when to rebuild a hierarchy: when the losses of the joins since the last rebuild add up to the cost of a
 /// rebuild. This is the ski-rental rule, which is 2-competitive: it never costs more than twice the optimum.
 ///
@@ -30,13 +26,10 @@ class RebuildRule {
   /// The hierarchy has been rebuilt.
   void start() noexcept { *this = {}; }
 
-  /// Records a join: the number of boxes it tested against the others, and the number of box tests.
-  void note(Joined kind, std::size_t boxes, std::uint64_t tests) noexcept {
-    if (boxes == 0) return;
-    double& rate = m_rate[static_cast<std::size_t>(kind)];
-    if (rate < 0.0) rate = static_cast<double>(tests) / static_cast<double>(boxes);
-    m_loss = std::max(0.0, m_loss + static_cast<double>(tests) - rate * static_cast<double>(boxes));
-  }
+  /// Records a join of all boxes, or of those that changed: how many it tested against the others, and the number of
+  /// box tests.
+  void noteAll(std::size_t boxes, std::uint64_t tests) noexcept { note(m_rateOfAll, boxes, tests); }
+  void noteChanged(std::size_t boxes, std::uint64_t tests) noexcept { note(m_rateOfChanged, boxes, tests); }
 
   /// Whether a rebuild for that number of boxes is due.
   [[nodiscard]] bool isDue(std::size_t boxes) const noexcept { return m_loss > kPrice * static_cast<double>(boxes); }
@@ -45,7 +38,14 @@ class RebuildRule {
   /// The cost of a rebuild per box, in tests of a pair of boxes (docs/decisions/0007).
   static constexpr double kPrice = 80.0;
 
-  std::array<double, 2> m_rate{-1.0, -1.0};
+  void note(double& rate, std::size_t boxes, std::uint64_t tests) noexcept {
+    if (boxes == 0) return;
+    if (rate < 0.0) rate = static_cast<double>(tests) / static_cast<double>(boxes);
+    m_loss = std::max(0.0, m_loss + static_cast<double>(tests) - rate * static_cast<double>(boxes));
+  }
+
+  double m_rateOfAll = -1.0;
+  double m_rateOfChanged = -1.0;
   double m_loss = 0.0;
 };
 

@@ -191,8 +191,7 @@ bool WorldSearch::isLookedFor(const BoxStore& store, Pair pair) const noexcept {
 /// Finds the pairs of the chosen worlds.
 void WorldSearch::join(const BoxStore& store) {
   const auto takeSmall = [&](std::span<const Pair> pairs, std::size_t worker) { m_history.take(pairs, worker, true); };
-  m_history.begin(store.idBound(), m_stepExecutor.concurrency(),
-                  m_statistics.joinedAll ? Joined::All : Joined::Changed);
+  m_history.begin(store.idBound(), m_stepExecutor.concurrency(), m_statistics.joinedAll);
   cutIntoRuns(
       m_chosen, [&](std::uint32_t world) { return m_members.size(world); }, m_runs);
   m_stepExecutor.run(m_runs.size() - 1, [&](std::size_t run) {
@@ -241,9 +240,9 @@ void WorldSearch::joinWorld(std::size_t world, const JoinOne& joinOne) {
     return joinOne(JoinRunner::Job::ofJoin(first.view(), second.view()));
   };
   const JoinRunner::Job selfJoin = JoinRunner::Job::ofSelfJoin(dynamicBoxes.view());
-  dynamicBoxes.rule().note(Joined::All, dynamicBoxes.size(), joinOne(selfJoin));
+  dynamicBoxes.rule().noteAll(dynamicBoxes.size(), joinOne(selfJoin));
   const std::uint64_t tests = joinTwo(dynamicBoxes, staticBoxes);
-  if (staticBoxes.size() != 0) staticBoxes.rule().note(Joined::All, dynamicBoxes.size(), tests);
+  if (staticBoxes.size() != 0) staticBoxes.rule().noteAll(dynamicBoxes.size(), tests);
   if (world == m_members.everyWorld()) return;
   joinTwo(dynamicBoxes, m_forest.tree(m_members.everyWorld(), false));
   joinTwo(dynamicBoxes, m_forest.tree(m_members.everyWorld(), true));
@@ -312,7 +311,7 @@ void WorldSearch::joinTouched(std::size_t world, std::span<const BoxId> touched)
     return run(JoinRunner::Job::ofJoin(changed.view(), with.view()));
   };
   const auto joinHere = [&](const ChangedBoxes& changed, DynamicBvh& with) {
-    with.rule().note(Joined::Changed, changed.size(), joinWith(changed, with));
+    with.rule().noteChanged(changed.size(), joinWith(changed, with));
   };
   joinHere(m_changedDynamic, dynamicBoxes);
   joinHere(m_changedDynamic, staticBoxes);
