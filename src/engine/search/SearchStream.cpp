@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Searches that pass pairs to a visitor as they find them, in bounded memory.
 #include <algorithm>
-#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -16,9 +15,6 @@ namespace {
 /// is bounded. A range of several boxes holds at most kLikelyPairs * kLastRange pairs, 32 MiB.
 constexpr std::size_t kFirstRange = std::size_t{1} << 15;
 constexpr std::size_t kLastRange = std::size_t{1} << 20;
-
-/// A range has more pairs than memory is bounded by.
-struct Overfull {};
 
 }  // namespace
 
@@ -103,18 +99,14 @@ bool Search::findRange(const Sets& sets, const OverlapOptions& options, const Bo
   if (sets.one) plan.sink.test.requireAscending();
   plan.sink.side = options.order == Order::BySecond ? PairSide::RowSecond : PairSide::RowFirst;
   plan.sink.stop = options.stop;
-  const std::size_t most = range.size() > 1 ? kLikelyPairs * kLastRange : std::numeric_limits<std::size_t>::max();
-  const auto keep = [most](std::span<Pair> pairs, std::size_t) {
-    if (pairs.size() > most) throw Overfull();
-    return std::size_t{0};
-  };
-  plan.sink.emit.emplace(keep);
+  if (range.size() > 1) plan.sink.maxPairs = kLikelyPairs * kLastRange;
   m_statistics = {};
   try {
     run(plan);
-    if (m_statistics.pairs > most) return false;  // Each worker has checked only its own.
-  } catch (const Overfull&) {
-    return false;  // The caller halves the range.
+  } catch (const LimitExceeded&) {
+    // The caller halves a range of too many pairs; any other limit is one that the filter throws.
+    if (m_runner.totals().pairs > plan.sink.maxPairs) return false;
+    throw;
   }
   concatenate(nullptr);
   sortPairs(plan);
