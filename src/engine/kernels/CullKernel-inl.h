@@ -211,16 +211,15 @@ HWY_INLINE std::size_t writeTouchingWord(std::uint64_t bits, std::uint32_t first
 
 template <std::size_t kStep, bool kOthersSecond>
 HWY_INLINE std::size_t writeTouchingSome(const TouchedBoxes& touched, Pair* pairs) {
-  constexpr std::size_t kBoxes = kWordBoxes / kStep;
   std::size_t size = 0;
   for (std::size_t word = 0; word * kWordBoxes < touched.size; ++word) {
     std::uint64_t any = 0;
     for (std::size_t k = 0; k < touched.others; ++k) any |= touched.words[k][word];
     if (any == 0) continue;
-    for (std::size_t i = 0; i < kWordBoxes; i += kBoxes) {
+    for (std::size_t i = 0; i < kWordBoxes; i += kWordBoxes / kStep) {
       std::uint64_t bits = 0;
       for (std::size_t k = 0; k < touched.others; ++k) {
-        bits |= spreadOut<kStep>(touched.words[k][word] >> i & lowBits(kBoxes)) << k;
+        bits |= spreadOut<kStep>(touched.words[k][word] >> i & lowBits(kWordBoxes / kStep)) << k;
       }
       const std::uint32_t first = touched.first + static_cast<std::uint32_t>(word * kWordBoxes + i);
       size += writeTouchingWord<kStep, kOthersSecond>(bits, first, touched.firstOther, pairs + size);

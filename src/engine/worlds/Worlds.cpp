@@ -51,8 +51,8 @@ Worlds::Worlds(const BoxView& boxes, Span<const std::uint64_t> begin) : m_boxes(
 }
 
 Worlds Worlds::ofEqualSize(const BoxView& boxes, std::size_t worlds) {
-  constexpr std::size_t kMost = PTRDIFF_MAX / sizeof(std::uint64_t) - 1;  // of what a vector has one offset more
-  if (worlds > kMost) throw InvalidArgument("too many worlds");
+  // Of that many a vector could not hold the offsets, which are one more.
+  if (worlds >= PTRDIFF_MAX / sizeof(std::uint64_t)) throw InvalidArgument("too many worlds");
   if (worlds == 0 ? !boxes.empty() : boxes.size() % worlds != 0) {
     throw InvalidArgument(std::to_string(boxes.size()) + " boxes cannot be divided equally among " +
                           std::to_string(worlds) + " worlds");
