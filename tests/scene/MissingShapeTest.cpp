@@ -196,11 +196,15 @@ std::string dxfBlock(const std::string& name, const std::string& entities) {
   return "0\nBLOCK\n8\n0\n2\n" + name + "\n10\n0\n20\n0\n30\n0\n" + entities + "0\nENDBLK\n";
 }
 
-std::string dxfInsert(const std::string& how) { return "0\nINSERT\n8\nwalls\n2\nB\n10\n10\n20\n20\n30\n30\n" + how; }
+std::string dxfInsert(const std::string& how, const std::string& name = "B") {
+  return "0\nINSERT\n8\nwalls\n2\n" + name + "\n10\n10\n20\n20\n30\n30\n" + how;
+}
 
 TEST(MissingShape, BlocksOfADxfThatAreOnlyMovedAreRead) {
   const TempFolder folder;
-  for (const char* how : {"", "41\n1.0\n42\n1\n43\n1\n50\n0.0\n70\n1\n71\n0\n210\n0\n220\n0\n230\n1\n"}) {
+  for (const char* how : {"", "41\n1.0\n42\n1\n43\n1\n50\n0.0\n70\n1\n71\n0\n210\n0\n220\n0\n230\n1\n",
+                          "41\n1.0000000000000002\n42\n0.9999999999999999\n50\n6.361109362927032E-15\n210\n1.2e-16\n",
+                          "50\n360\n", "50\n-360.0\n"}) {
     const scene::Scene scene = scene::readInput(folder.write("a.dxf", dxf(dxfBlock("B", kFace), dxfInsert(how))));
     ASSERT_EQ(scene.models.size(), 1U) << how;
     scene.models[0]->computeBoundingTree();
@@ -215,7 +219,7 @@ TEST(MissingShape, WhatWouldBeInAWrongPlaceInADxfIsAnError) {
               "54: an INSERT that turns, scales or repeats its block is not read; explode it")
         << how;
   }
-  EXPECT_EQ(problemReading("a.dxf", dxf(dxfBlock("A", kFace) + dxfBlock("B", dxfInsert("")), dxfInsert(""))),
+  EXPECT_EQ(problemReading("a.dxf", dxf(dxfBlock("A", kFace) + dxfBlock("B", dxfInsert("", "A")), dxfInsert(""))),
             "60: a block within a block is not read; explode it");
   EXPECT_EQ(problemReading("a.dxf", dxf("", std::string(kFace) + "0\nPOLYLINE\n70\n8\n0\nVERTEX\n10\n1\n0\nSEQEND\n")),
             "40: a POLYLINE that is no polyface mesh is not read; export LINEs");
@@ -233,6 +237,85 @@ TEST(MissingShape, CurvesOfADxfAreNamedAndTextsAndUnusedBlocksAreNot) {
   EXPECT_EQ(namesAndWarnings("a.dxf", dxf(unused, std::string(kFace) + "0\nTEXT\n1\nROOM\n")), (Said{"walls"}));
   EXPECT_EQ(namesAndWarnings("a.dxf", dxf(unused, kFace + curves)),
             (Said{"walls", "shapes: 3 of kinds that are not read are missing: ARC, CIRCLE"}));
+}
+
+constexpr const char* kDxfText = "0\nTEXT\n8\n0\n10\n100\n20\n200\n30\n0\n40\n2\n1\nROOM\n";
+constexpr const char* kDxfCircle = "0\nCIRCLE\n8\n0\n10\n100\n20\n200\n30\n0\n40\n2\n";
+constexpr const char* kDxfAttribute = "0\nATTDEF\n8\n0\n10\n0\n20\n0\n30\n0\n40\n2\n1\nx\n2\nTAG\n";
+
+TEST(MissingShape, ABlockOfADxfThatOtherEntitiesWouldMoveOrRenameIsAnError) {
+  const std::string face = kFace;
+  const auto problem = [&](const std::string& content) {
+    return problemReading("a.dxf", dxf(dxfBlock("B", content), face + dxfInsert("")));
+  };
+  EXPECT_EQ(problem(face + kDxfText),
+            "46: a block of faces or lines in which there is 'TEXT' too is not read; explode it");
+  EXPECT_EQ(problem(kDxfCircle + face),
+            "18: a block of faces or lines in which there is 'CIRCLE' too is not read; explode it");
+  EXPECT_EQ(problem(face + kDxfAttribute),
+            "46: a block of faces or lines in which there is 'ATTDEF' too is not read; explode it");
+  EXPECT_EQ(problem(face + "0\nHATCH\n10\n0\n20\n0\n30\n0\n2\nANSI31\n70\n0\n"),
+            "46: a block of faces or lines in which there is 'HATCH' too is not read; explode it");
+  EXPECT_EQ(problem(face + "0\nCIRCLE\n10\n0\n20\n0\n30\n0\n40\n2\n"), "none");  // at the block's base
+  EXPECT_EQ(problemReading("a.dxf", dxf(dxfBlock("A", face + kDxfText) + dxfBlock("B", face), dxfInsert(""))), "none");
+}
+
+TEST(MissingShape, ABlockOfADxfThatIsInsertedByAnotherNameIsAnErrorOrNamed) {
+  const std::string face = kFace;
+  EXPECT_EQ(problemReading("a.dxf", dxf(dxfBlock("b", face), face + dxfInsert(""))),
+            "82: the block 'b' is not read where it is called 'B'");
+  EXPECT_EQ(namesAndWarnings("a.dxf", dxf(dxfBlock("b", face) + dxfBlock("B", face), dxfInsert(""))), (Said{"walls"}));
+  EXPECT_EQ(namesAndWarnings("a.dxf", dxf(dxfBlock("b", kDxfText), face + dxfInsert(""))), (Said{"walls"}));
+  const std::string other = "0\nBLOCK\n2\nB\n70\n4\n10\n0\n20\n0\n30\n0\n1\nother.dwg\n0\nENDBLK\n";
+  EXPECT_EQ(namesAndWarnings("a.dxf", dxf(other, face + dxfInsert(""))),
+            (Said{"walls", "shapes: blocks of other drawings are not read, and missing: 'B'"}));
+  EXPECT_EQ(namesAndWarnings("a.dxf", dxf(other, face)), (Said{"walls"}));
+}
+
+TEST(MissingShape, BlocksOfADxfWithoutShapesMayBeTurnedAndInEachOther) {
+  const std::string face = kFace;
+  const auto said = [&](const std::string& blocks) {
+    return namesAndWarnings("a.dxf", dxf(blocks, face + dxfInsert("50\n90\n")));
+  };
+  EXPECT_EQ(said(""), (Said{"walls"}));
+  EXPECT_EQ(said(dxfBlock("B", "")), (Said{"walls"}));
+  EXPECT_EQ(said(dxfBlock("B", kDxfText)), (Said{"walls"}));
+  const Said circle{"walls", "shapes: 1 of kinds that are not read is missing: CIRCLE"};
+  EXPECT_EQ(said(dxfBlock("B", kDxfCircle)), circle);
+  const std::string inB = dxfInsert("50\n90\n", "A");
+  EXPECT_EQ(said(dxfBlock("A", kDxfCircle) + dxfBlock("B", inB)), circle);
+  const auto nested = [&](const std::string& content) {
+    return problemReading("a.dxf", dxf(dxfBlock("A", kDxfText) + dxfBlock("B", content), dxfInsert("")));
+  };
+  EXPECT_EQ(nested(face + inB), "none");
+  EXPECT_EQ(nested(inB + face), "46: a block within a block is not read; explode it");
+  EXPECT_EQ(problemReading("a.dxf", dxf(dxfBlock("B", inB) + dxfBlock("A", dxfInsert("")), face + dxfInsert(""))),
+            "none");  // they are in each other
+}
+
+TEST(MissingShape, PaperSpaceOfADxfIsNoErrorAndSaidToBeInTheModel) {
+  const std::string line = "0\nLINE\n67\n1\n8\nframe\n10\n100\n20\n100\n30\n0\n11\n200\n21\n100\n31\n0\n";
+  const std::string polyline =
+      "0\nPOLYLINE\n67\n1\n8\nframe\n70\n1\n0\nVERTEX\n10\n0\n20\n0\n30\n0\n0\nVERTEX\n10\n1\n20\n0\n30\n0\n"
+      "0\nVERTEX\n10\n1\n20\n5\n30\n0\n0\nSEQEND\n";
+  const std::string other = "0\n3DSOLID\n67\n1\n1\nmanm\n0\nCIRCLE\n67\n1\n40\n5\n";
+  EXPECT_EQ(namesAndWarnings("a.dxf", dxf(dxfBlock("B", kFace), kFace + other)), (Said{"walls"}));
+  EXPECT_EQ(
+      namesAndWarnings("a.dxf", dxf(dxfBlock("B", kFace), kFace + line + polyline + dxfInsert("67\n1\n41\n2\n"))),
+      (Said{"walls", "frame", "shapes: 3 of the paper space are read as if in the model: INSERT, LINE, POLYLINE"}));
+}
+
+TEST(MissingShape, APolylineOfADxfOfOnePieceIsRead) {
+  const auto polyline = [](const std::string& how, const std::string& last) {
+    return dxf("", "0\nPOLYLINE\n8\nwalls\n" + how +
+                       "0\nVERTEX\n10\n1\n20\n2\n30\n3\n0\nVERTEX\n10\n5\n20\n2\n30\n3\n" + last + "0\nSEQEND\n");
+  };
+  EXPECT_EQ(namesAndWarnings("a.dxf", polyline("70\n8\n", "")), (Said{"walls"}));
+  EXPECT_EQ(namesAndWarnings("a.dxf", polyline("", "")), (Said{"walls"}));
+  const std::string problem = "12: a POLYLINE that is no polyface mesh is not read; export LINEs";
+  EXPECT_EQ(problemReading("a.dxf", polyline("", "0\nVERTEX\n10\n5\n20\n9\n30\n3\n")), problem);
+  EXPECT_EQ(problemReading("a.dxf", polyline("", "42\n0.5\n")), problem);
+  EXPECT_EQ(problemReading("a.dxf", polyline("230\n-1\n", "")), problem);
 }
 
 }  // namespace

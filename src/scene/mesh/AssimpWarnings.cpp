@@ -8,9 +8,7 @@
 #include <utility>
 
 namespace allpairs::scene {
-namespace {
 
-/// The first of some names, in quotes, and how many others there are.
 std::string firstOf(const std::vector<std::string>& names) {
   constexpr std::size_t kNamed = 5;
   std::string text;
@@ -18,8 +16,6 @@ std::string firstOf(const std::vector<std::string>& names) {
   if (names.size() > kNamed) text += fmt::format(" and {} more", names.size() - kNamed);
   return text;
 }
-
-}  // namespace
 
 std::string notRead(const std::set<std::string>& kinds) {
   std::string text;
