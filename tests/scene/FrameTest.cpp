@@ -196,6 +196,8 @@ TEST(Frame, FbxAndAmfHaveTheUnitThatTheyName) {
   EXPECT_EQ(unit("a.amf", amf(" version=\"1.1\" unit=\"inch\"")), 0.0254);
   EXPECT_EQ(unit("a.amf", amf("")), 0.001);
   EXPECT_EQ(unit("a.amf", amf(" unit='meter'")), 1.0);
+  EXPECT_EQ(unit("a.amf", amf(" generator=\"a>b unity\" unit=\"inch\"")), 0.0254);
+  EXPECT_EQ(unit("a.amf", "<!-- <amf unit='meter'> -->" + amf("").substr(22)), 0.001);
 }
 
 TEST(Frame, GltfIsYUpAndInMetresAndStlSaysNothing) {

@@ -124,15 +124,34 @@ TEST(MissingShape, CoordinatesFarFromTheOriginAreSaidToBeRounded) {
                   "nearer to it"}));
 }
 
-TEST(MissingShape, ConstellationsOfAnAmfAreAnError) {
-  const std::string text = R"(<?xml version="1.0"?><amf unit="millimeter"><object id="1"><mesh><vertices>
+/// A triangle in AMF, and what else there is.
+std::string amfWith(const std::string& more) {
+  return R"(<?xml version="1.0"?><amf unit="millimeter"><object id="1"><mesh><vertices>
 <vertex><coordinates><x>0</x><y>0</y><z>0</z></coordinates></vertex>
 <vertex><coordinates><x>1</x><y>0</y><z>0</z></coordinates></vertex>
 <vertex><coordinates><x>0</x><y>1</y><z>0</z></coordinates></vertex></vertices><volume>
-<triangle><v1>0</v1><v2>1</v2><v3>2</v3></triangle></volume></mesh></object>
-<constellation id="2"><instance objectid="1"><deltax>5</deltax></instance></constellation></amf>)";
-  EXPECT_EQ(problemReading("a.amf", text),
-            "0: has constellations, which are not read: export each object in its place");
+<triangle><v1>0</v1><v2>1</v2><v3>2</v3></triangle></volume></mesh></object>)" +
+         more + "</amf>";
+}
+
+std::string constellationOf(const std::string& how) {
+  return R"(<constellation id="2"><instance objectid="1">)" + how + "</instance></constellation>";
+}
+
+TEST(MissingShape, ConstellationsOfAnAmfAreAnError) {
+  for (const char* how : {"<deltax>5</deltax>", "<rz>90</rz>", "<deltay>0</deltay><scalex>2</scalex>"}) {
+    EXPECT_EQ(problemReading("a.amf", amfWith(constellationOf(how))),
+              "0: has constellations, which are not read: export each object in its place")
+        << how;
+  }
+}
+
+TEST(MissingShape, ConstellationsOfAnAmfThatLeaveAllInPlaceAndTheWordAreNoError) {
+  EXPECT_EQ(namesAndWarnings("a.amf", amfWith(constellationOf("<deltax>0</deltax><rz> 0.0 </rz><scalex>1</scalex>"))),
+            (Said{"1"}));
+  EXPECT_EQ(namesAndWarnings("a.amf", amfWith("<!-- no <constellation> with <instance> -->")), (Said{"1"}));
+  EXPECT_EQ(namesAndWarnings("a.amf", amfWith("<metadata type=\"name\"><![CDATA[<constellation>]]></metadata>")),
+            (Said{"1"}));
 }
 
 /// An archive whose files are not compressed.
@@ -176,12 +195,21 @@ TEST(MissingShape, ObjectsInSeveralPartsOfA3mfAreAnError) {
 xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02"><resources><object id="1" type="model"><mesh><vertices>
 <vertex x="0" y="0" z="0"/><vertex x="1" y="0" z="0"/><vertex x="0" y="1" z="0"/></vertices><triangles>
 <triangle v1="0" v2="1" v3="2"/></triangles></mesh></object></resources><build><item objectid="1"/></build></model>)";
-  std::vector<std::pair<std::string, std::string>> files{
-      {"[Content_Types].xml", types}, {"_rels/.rels", relations}, {"3D/a.model", model}};
-  EXPECT_EQ(namesAndWarnings("a.3mf", archiveOf(files)).size(), 1U);
-  files.emplace_back("3D/Objects/b.model", model);
-  EXPECT_EQ(problemReading("a.3mf", archiveOf(files)),
-            "0: has objects in several parts, which are not read: export it as one part");
+  using Files = std::vector<std::pair<std::string, std::string>>;
+  const Files files{{"[Content_Types].xml", types}, {"_rels/.rels", relations}, {"3D/a.model", model}};
+  const auto with = [&files](const std::string& name, const std::string& text) {
+    Files others = files;
+    others.emplace_back(name, text);
+    return archiveOf(others);
+  };
+  EXPECT_EQ(namesAndWarnings("a.3mf", archiveOf(files)), (Said{"Object_1"}));
+  EXPECT_EQ(namesAndWarnings("a.3mf", with("__MACOSX/3D/._a.model", "x")), (Said{"Object_1"}));
+  EXPECT_EQ(namesAndWarnings("a.3mf", with("Metadata/thumbnail.png", "\x89PNG")), (Said{"Object_1"}));
+  for (const char* name : {"3D/Objects/b.model", "3D/Objects/b.MODEL"}) {
+    EXPECT_EQ(problemReading("a.3mf", with(name, model)),
+              "0: has objects in several parts, which are not read: export it as one part")
+        << name;
+  }
 }
 
 /// A drawing: what it has in its blocks, and in itself.

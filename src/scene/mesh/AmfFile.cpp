@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <new>
+#include <pugixml.hpp>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -14,31 +16,40 @@
 namespace allpairs::scene {
 namespace {
 
-/// The unit that the outermost element names; empty where it names none.
-std::string_view unitOf(std::string_view xml) {
-  const std::size_t begin = xml.find("<amf");
-  if (begin == std::string_view::npos) return {};
-  const std::string_view tag = xml.substr(begin, xml.find('>', begin) - begin);
-  const std::size_t name = tag.find("unit");
-  const std::size_t quote = name == std::string_view::npos ? name : tag.find_first_of("\"'", name);
-  if (quote == std::string_view::npos) return {};
-  const std::string_view value = tag.substr(quote + 1);
-  return value.substr(0, value.find(tag[quote]));
+/// Whether an instance lets its object be where it is, and as it is.
+bool leavesInPlace(const pugi::xml_node& instance) {
+  const auto isAll = [&instance](const auto& names, double wanted) {
+    return std::all_of(names.begin(), names.end(), [&](const char* name) {
+      const pugi::xml_node value = instance.child(name);
+      return !value || parseNumber(trimmed(value.text().get())).value_or(0.0) == wanted;
+    });
+  };
+  static constexpr std::array<const char*, 6> kMoves{"deltax", "deltay", "deltaz", "rx", "ry", "rz"};
+  static constexpr std::array<const char*, 4> kScales{"scale", "scalex", "scaley", "scalez"};  // of PrusaSlicer
+  return isAll(kMoves, 0.0) && isAll(kScales, 1.0);
 }
 
 }  // namespace
 
-double checkedAmfUnit(const std::filesystem::path& path, const ReadScope& scope) {
+double checkedAmfUnit(const std::filesystem::path& path) {
   static constexpr std::array<std::pair<std::string_view, double>, 6> kUnits{{{"", 0.001},  // what the format says
                                                                               {"millimeter", 0.001},
                                                                               {"micron", 1e-6},
                                                                               {"inch", 0.0254},
                                                                               {"feet", 0.3048},
                                                                               {"meter", 1.0}}};
-  const std::string text = readText(path, scope.stop());
-  if (text.find("<constellation") != std::string::npos)
-    throw FileError(path, "has constellations, which are not read: export each object in its place");
-  const std::string unit = lowerCase(unitOf(text));
+  const std::string text = readText(path);
+  pugi::xml_document document;
+  const auto result = document.load_buffer(text.data(), text.size());
+  if (result.status == pugi::status_out_of_memory) throw std::bad_alloc();
+  const pugi::xml_node amf = document.child("amf");
+  if (!result || !amf) return 0.0;  // which Assimp refuses
+  for (const pugi::xml_node& constellation : amf.children("constellation")) {
+    const auto instances = constellation.children("instance");
+    if (!std::all_of(instances.begin(), instances.end(), leavesInPlace))
+      throw FileError(path, "has constellations, which are not read: export each object in its place");
+  }
+  const std::string unit = lowerCase(amf.attribute("unit").value());
   const auto known =
       std::find_if(kUnits.begin(), kUnits.end(), [&unit](const auto& entry) { return unit == entry.first; });
   return known == kUnits.end() ? 0.0 : known->second;

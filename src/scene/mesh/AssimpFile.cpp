@@ -408,26 +408,30 @@ class ObjectTransfer {
   }
 };
 
+/// In the child process, which ends with all that it has.
 std::vector<MeshObject> importObjects(const Path& path, ReadScope& scope, MeshFrame& frame,
                                       std::vector<FileWarning>& warnings) {
+  const std::string extension = lowerExtension(path);
+  const double amfUnit = extension == ".amf" ? checkedAmfUnit(path) : 0.0;
   const AssimpLog& log = AssimpLog::start();
-  Assimp::Importer importer;
+  static auto* const importer = new Assimp::Importer;  // never freed: Assimp crashes where it frees pictures of a 3MF
   auto owned = std::make_unique<ScopedFiles>(path, scope);
   const ScopedFiles* files = owned.get();
-  importer.SetIOHandler(owned.release());  // which owns it
-  const aiScene* scene = importer.ReadFile(path.string(), 0);
+  importer->SetIOHandler(owned.release());  // which owns it
+  const aiScene* scene = importer->ReadFile(path.string(), 0);
   if (!files->refused().empty()) {
     throw FileError(path, "names the file '" + files->refused() + "', which " + ReadScope::kOutside);
   }
   if (scene == nullptr || scene->mRootNode == nullptr) {
-    const std::string reason = files->opensOthers() ? "" : importer.GetErrorString();
+    const std::string reason = files->opensOthers() ? "" : importer->GetErrorString();
     if (reason == std::bad_alloc().what()) throw std::bad_alloc();  // which Assimp has caught
     throw FileError(path, "cannot be read as a mesh" + (reason.empty() ? "" : ": " + reason));
   }
   if (log.parts() > 1) throw FileError(path, "has objects in several parts, which are not read: export it as one part");
   NodeReader reader(*scene, path, scope);
   std::vector<MeshObject> objects = reader.read(frame);
-  if (lowerExtension(path) == ".fbx") frame.metresPerUnit = unitOfFbx(*scene, readText(path));
+  if (extension == ".fbx") frame.metresPerUnit = unitOfFbx(*scene, readText(path));
+  if (extension == ".amf") frame.metresPerUnit = amfUnit;
   const std::set<std::string>& missing = log.missingKinds().empty() ? log.missingNodes() : log.missingKinds();
   if (objects.empty() && !missing.empty())
     throw FileError(path, "holds no triangles, lines or points: " + notRead(missing));
@@ -470,9 +474,7 @@ bool isAssimpFile(const Path& path) {
 
 std::vector<MeshObject> readAssimpObjects(const Path& path, ReadScope& scope, MeshFrame& frame,
                                           std::vector<FileWarning>& warnings) {
-  const std::string extension = lowerExtension(path);
-  const double amfUnit = extension == ".amf" ? checkedAmfUnit(path, scope) : 0.0;
-  if (extension == ".dxf") checkDxf(path, scope, warnings);
+  if (lowerExtension(path) == ".dxf") checkDxf(path, scope, warnings);
   constexpr std::uint64_t kSeconds = 10;
   constexpr std::uint64_t kBytesPerSecond = 1 << 20;       // the slowest of Assimp's readers on honest files
   const std::uint64_t size = InputFile(path).remaining();  // what is no file is refused here
@@ -482,7 +484,6 @@ std::vector<MeshObject> readAssimpObjects(const Path& path, ReadScope& scope, Me
   if (answer.empty()) throw FileError(path, "cannot be read as a mesh: Assimp fails on it");
   if (answer.front() == kProblem) throw FileError(path, answer.substr(1));
   std::vector<MeshObject> objects = ObjectTransfer::unpack(std::string_view(answer).substr(1), frame, warnings);
-  if (extension == ".amf") frame.metresPerUnit = amfUnit;
   return objects;
 }
 

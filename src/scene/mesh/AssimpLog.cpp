@@ -31,6 +31,13 @@ bool holdsShapes(std::string_view node) {
          std::find(kNodes.begin(), kNodes.end(), node) != kNodes.end();
 }
 
+/// Whether a message names a part with a model of a 3MF, and not what macOS adds to archives.
+bool isPartOf3mf(std::string_view message) {
+  constexpr std::string_view kIgnored = "Ignored file of unknown type: ";
+  return message.starts_with(kIgnored) && !message.substr(kIgnored.size()).starts_with("__MACOSX/") &&
+         lowerCase(message).ends_with(".model");
+}
+
 /// The word behind a text; empty where the text is not there.
 std::string_view wordBehind(std::string_view message, std::string_view text) {
   const std::size_t at = message.find(text);
@@ -60,7 +67,7 @@ void AssimpLog::OnWarn(const char* message) { note(message); }
 void AssimpLog::OnError(const char* message) { note(message); }
 
 void AssimpLog::note(std::string_view message) {
-  if (message.starts_with("Ignored file of unknown type:") && message.ends_with(".model")) ++m_parts;
+  if (isPartOf3mf(message)) ++m_parts;
   if (!message.starts_with("IFC: ")) return;
   const std::string_view kind = wordBehind(message, "type is ");
   const bool isItem = wordBehind(message, "skipping unknown ") == "IfcGeometricRepresentationItem";
