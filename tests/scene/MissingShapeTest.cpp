@@ -103,6 +103,34 @@ TEST(MissingShape, AnAxisOfAProductIsNoShapeThatIsMissing) {
   EXPECT_EQ(namesAndWarnings("two.ifc", ifcWith("#38=IFCPRODUCTDEFINITIONSHAPE($,$,(#37));", axis)), (Said{"wall"}));
 }
 
+TEST(MissingShape, ABoundingBoxThatIsAllOfAProductOfAnIfcIsNamed) {
+  const std::string box =
+      "#51=IFCBOUNDINGBOX(#8,1000.,1000.,5000.);\n#52=IFCSHAPEREPRESENTATION(#10,'Box','BoundingBox',(#51));\n";
+  EXPECT_EQ(namesAndWarnings("two.ifc", ifcWith("#38=IFCPRODUCTDEFINITIONSHAPE($,$,(#37));",
+                                                box + "#38=IFCPRODUCTDEFINITIONSHAPE($,$,(#52));")),
+            (Said{"wall", "shapes: IfcBoundingBox is not read: nothing is there of 'column'"}));
+  EXPECT_EQ(namesAndWarnings("two.ifc", ifcWith("#38=IFCPRODUCTDEFINITIONSHAPE($,$,(#37));",
+                                                box + "#38=IFCPRODUCTDEFINITIONSHAPE($,$,(#52,#37));")),
+            (Said{"wall", "column"}));
+}
+
+TEST(MissingShape, TopologyOfAnIfcIsNoShapeThatIsMissing) {
+  const std::string vertex =
+      "#51=IFCVERTEXPOINT(#8);\n#52=IFCTOPOLOGYREPRESENTATION(#10,'Reference','Vertex',(#51));\n";
+  EXPECT_EQ(namesAndWarnings("two.ifc", ifcWith("#38=IFCPRODUCTDEFINITIONSHAPE($,$,(#37));",
+                                                vertex + "#38=IFCPRODUCTDEFINITIONSHAPE($,$,(#52,#37));")),
+            (Said{"wall", "column"}));
+}
+
+TEST(MissingShape, PlacementsOfAnIfcThatAreNotReadAreSaidToBeWrong) {
+  const std::string grid =
+      "#51=IFCGRIDAXIS('A',#55,.T.);\n#52=IFCGRIDAXIS('B',#55,.T.);\n"
+      "#53=IFCVIRTUALGRIDINTERSECTION((#51,#52),(0.,0.,0.));\n#54=IFCCARTESIANPOINT((1.,0.));\n"
+      "#55=IFCPOLYLINE((#20,#54));\n#32=IFCGRIDPLACEMENT(#53,$);";
+  EXPECT_EQ(namesAndWarnings("two.ifc", ifcWith("#32=IFCLOCALPLACEMENT(#15,#31);", grid)),
+            (Said{"wall", "column", "placements: IfcGridPlacement is not read: products are in wrong places"}));
+}
+
 TEST(MissingShape, NodesOfAnX3dThatAreNotReadAreNamed) {
   const std::string begin = "<?xml version=\"1.0\"?>\n<X3D version=\"3.3\"><Scene>";
   const std::string box = "<Shape><Box size=\"2 2 2\"/></Shape>";
@@ -112,6 +140,26 @@ TEST(MissingShape, NodesOfAnX3dThatAreNotReadAreNamed) {
   EXPECT_EQ(namesAndWarnings("a.x3d", begin + box + "<Collision>" + box + "</Collision>" + lod + lod + end),
             (Said{"a.x3d", "shapes: Collision, LOD are not read: what they hold is missing"}));
   EXPECT_EQ(problemReading("a.x3d", begin + lod + end), "0: holds no triangles, lines or points: LOD is not read");
+  for (const std::string node :
+       {"GeoViewpoint", "GeoOrigin", "GeoMetadata", "GeoTouchSensor", "GeoProximitySensor", "GeoPositionInterpolator",
+        "NurbsPositionInterpolator", "NurbsOrientationInterpolator", "Viewport", "LOD", "ViewpointGroup"}) {
+    std::string text = begin;
+    text += box + '<' + node + "/>" + end;
+    EXPECT_EQ(namesAndWarnings("a.x3d", text), (Said{"a.x3d"})) << node;
+  }
+  for (const std::string node : {"PickableGroup", "CollidableShape", "EspduTransform", "LayoutGroup", "LayoutLayer",
+                                 "GeoTransform", "Viewport"}) {
+    std::string text = begin;
+    text += box + '<' + node + "><Group>" + box + "</Group></" + node + '>' + end;
+    EXPECT_EQ(namesAndWarnings("a.x3d", text),
+              (Said{"a.x3d", "shapes: " + node + " is not read: what they hold is missing"}));
+  }
+  for (const std::string node : {"QuadSet", "IndexedQuadSet", "NurbsPatchSurface", "Text"}) {
+    std::string text = begin;
+    text += box + "<Shape><" + node + "/></Shape>" + end;
+    EXPECT_EQ(namesAndWarnings("a.x3d", text),
+              (Said{"a.x3d", "shapes: " + node + " is not read: what they hold is missing"}));
+  }
 }
 
 TEST(MissingShape, CoordinatesFarFromTheOriginAreSaidToBeRounded) {

@@ -34,6 +34,7 @@
 #include "mesh/MeshObject.h"
 #include "mesh/PathNames.h"
 #include "mesh/Transform.h"
+#include "mesh/X3dNodes.h"
 
 namespace allpairs::scene {
 namespace {
@@ -66,13 +67,6 @@ bool isMadeUp(std::string_view name) {
 bool isStepOfTransform(const aiNode& node) {
   return node.mNumMeshes == 0 && std::string_view(node.mName.C_Str()).find("_$AssimpFbx$_") != std::string_view::npos;
 }
-
-/// An IFC's product, by Assimp's name of its node.
-struct IfcProduct {
-  std::string name;  ///< Its class where it has none of its own.
-  std::string kind;
-  std::string id;
-};
 
 /// Takes a name as IfcColumn_name_2AvctVUKr0kugbFTf53O9L apart; another one is no product's.
 std::optional<IfcProduct> ifcProductOf(const std::string& text) {
@@ -120,8 +114,8 @@ class NodeReader {
     return std::move(m_objects);
   }
 
-  /// The names of products that should have a body, and of which nothing is shown.
-  [[nodiscard]] const std::vector<std::string>& shapeless() const { return m_shapeless; }
+  /// Products that should have a body, and of which nothing is shown.
+  [[nodiscard]] const std::vector<IfcProduct>& shapeless() const { return m_shapeless; }
 
  private:
   static constexpr std::size_t kNone = NestedNode::kNoParent;
@@ -154,7 +148,7 @@ class NodeReader {
     }
     if (!isProduct || m_objects.size() != before) return;
     const IfcProduct& product = m_products[place.product];
-    if (!isWithoutBody(product.kind)) m_shapeless.push_back(product.name);
+    if (!isWithoutBody(product.kind)) m_shapeless.push_back(product);
   }
 
   /// Where the node is a product, it is what those below are parts of.
@@ -274,7 +268,7 @@ class NodeReader {
   std::vector<NestedItem> m_inNodes;  ///< Of each product the node that it is in.
   std::vector<Origin> m_origins;      ///< Of each object.
   std::vector<MeshObject> m_objects;
-  std::vector<std::string> m_shapeless;
+  std::vector<IfcProduct> m_shapeless;
   std::vector<std::uint32_t> m_corners;
 };
 
@@ -432,12 +426,14 @@ std::vector<MeshObject> importObjects(const Path& path, ReadScope& scope, MeshFr
   std::vector<MeshObject> objects = reader.read(frame);
   if (extension == ".fbx") frame.metresPerUnit = unitOfFbx(*scene, readText(path));
   if (extension == ".amf") frame.metresPerUnit = amfUnit;
-  const std::set<std::string>& missing = log.missingKinds().empty() ? log.missingNodes() : log.missingKinds();
+  const std::set<std::string> nodes = x3dNodesOfShapes(path, log.skippedNodes());
+  const std::set<std::string>& missing = log.missingKinds().empty() ? nodes : log.missingKinds();
   if (objects.empty() && !missing.empty())
     throw FileError(path, "holds no triangles, lines or points: " + notRead(missing));
-  if (!log.missingNodes().empty())
-    warnings.push_back({"shapes", notRead(log.missingNodes()) + ": what they hold is missing"});
-  warnOfMissing(log.missingKinds(), reader.shapeless(), warnings);
+  if (!nodes.empty()) warnings.push_back({"shapes", notRead(nodes) + ": what they hold is missing"});
+  if (!log.unknownPlacements().empty())
+    warnings.push_back({"placements", notRead(log.unknownPlacements()) + ": products are in wrong places"});
+  warnOfMissing(path, log.missingKinds(), reader.shapeless(), warnings);
   warnOfRounding(objects, frame.metresPerUnit, warnings);
   return objects;
 }

@@ -22,13 +22,11 @@ bool isNoBody(std::string_view kind) {
                      [kind](std::string_view part) { return kind.find(part) != std::string_view::npos; });
 }
 
-/// Whether nodes of an X3D hold shapes, or are some.
-bool holdsShapes(std::string_view node) {
-  static constexpr std::array<std::string_view, 14> kNodes{
-      "Anchor", "Billboard", "CADAssembly", "CADFace", "CADLayer", "CADPart",       "Collision",
-      "Layer",  "LOD",       "LayerSet",    "Text",    "Viewport", "ProtoInstance", "ScreenGroup"};
-  return node.starts_with("Nurbs") || node.starts_with("Geo") || node.starts_with("HAnim") ||
-         std::find(kNodes.begin(), kNodes.end(), node) != kNodes.end();
+/// Whether it is a point, an edge or a face of an IFC's topology, as of a structural analysis.
+bool isTopology(std::string_view kind) {
+  static constexpr std::array<std::string_view, 4> kParts{"IfcVertex", "IfcEdge", "IfcFaceSurface", "IfcPath"};
+  return kind == "IfcOrientedEdge" || kind == "IfcSubedge" || kind == "IfcFace" ||
+         std::any_of(kParts.begin(), kParts.end(), [kind](std::string_view part) { return kind.starts_with(part); });
 }
 
 /// Whether a message names a part with a model of a 3MF, and not what macOS adds to archives.
@@ -60,7 +58,7 @@ void AssimpLog::OnInfo(const char* message) {
   if (!text.starts_with(kSkipping)) return;
   std::string_view node = text.substr(kSkipping.size());
   node = node.substr(0, node.find('"'));
-  if (holdsShapes(node)) m_missingNodes.emplace(node);
+  m_skippedNodes.emplace(node);
 }
 
 void AssimpLog::OnWarn(const char* message) { note(message); }
@@ -70,8 +68,13 @@ void AssimpLog::note(std::string_view message) {
   if (isPartOf3mf(message)) ++m_parts;
   if (!message.starts_with("IFC: ")) return;
   const std::string_view kind = wordBehind(message, "type is ");
-  const bool isItem = wordBehind(message, "skipping unknown ") == "IfcGeometricRepresentationItem";
-  if (!kind.empty() && !(isItem && isNoBody(kind))) m_missing.emplace(kind);
+  const std::string_view what = wordBehind(message, "skipping unknown ");
+  const bool isBodiless = what == "IfcGeometricRepresentationItem" && (isNoBody(kind) || isTopology(kind));
+  if (what == "IfcObjectPlacement") {
+    m_unknownPlacements.emplace(kind);
+  } else if (!kind.empty() && !isBodiless) {
+    m_missing.emplace(kind);
+  }
   const std::string_view operation = wordBehind(message, "unsupported boolean operator: ");
   if (!operation.empty()) m_missing.insert("IfcBooleanResult of " + lowerCase(operation));
   if (message.ends_with("(IfcSweptDiskSolid)")) m_missing.emplace("IfcSweptDiskSolid");

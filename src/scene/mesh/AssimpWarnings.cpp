@@ -5,7 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <unordered_set>
 #include <utility>
+
+#include "input/FileBytes.h"
+#include "mesh/IfcNames.h"
 
 namespace allpairs::scene {
 
@@ -23,12 +27,20 @@ std::string notRead(const std::set<std::string>& kinds) {
   return text + (kinds.size() == 1 ? " is not read" : " are not read");
 }
 
-void warnOfMissing(const std::set<std::string>& kinds, const std::vector<std::string>& shapeless,
-                   std::vector<FileWarning>& warnings) {
-  if (kinds.empty()) return;
-  std::string reason = notRead(kinds) + ": ";
-  reason += shapeless.empty() ? "parts of products are missing"
-                              : "nothing is there of " + firstOf(shapeless) + ", and parts of others may be missing";
+void warnOfMissing(const std::filesystem::path& path, const std::set<std::string>& kinds,
+                   const std::vector<IfcProduct>& shapeless, std::vector<FileWarning>& warnings) {
+  if (kinds.empty() && shapeless.empty()) return;
+  std::unordered_set<std::string> ids;
+  for (const IfcProduct& product : shapeless) ids.insert(product.id);
+  if (kinds.empty()) ids = ifcProductsOfBoxes(readText(path), ids);  // which Assimp passes over without a word
+  std::vector<std::string> names;
+  for (const IfcProduct& product : shapeless) {
+    if (ids.contains(product.id)) names.push_back(product.name);
+  }
+  if (kinds.empty() && names.empty()) return;
+  std::string reason = (kinds.empty() ? "IfcBoundingBox is not read" : notRead(kinds)) + ": ";
+  reason += names.empty() ? "parts of products are missing" : "nothing is there of " + firstOf(names);
+  if (!kinds.empty() && !names.empty()) reason += ", and parts of others may be missing";
   warnings.push_back({"shapes", std::move(reason)});
 }
 

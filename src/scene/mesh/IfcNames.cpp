@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "mesh/IfcNames.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "input/Words.h"
 
@@ -129,10 +132,19 @@ class StepScanner {
 
   /// Takes a character, and what is blank before it.
   bool take(char wanted) {
-    skipBlanks();
-    const bool isThere = !isAtEnd() && m_text[m_at] == wanted;
+    const bool isThere = isBefore(wanted);
     m_at += isThere ? 1 : 0;
     return isThere;
+  }
+
+  /// Whether a character is the next one that is not blank.
+  bool isBefore(char wanted) {
+    skipBlanks();
+    return !isAtEnd() && m_text[m_at] == wanted;
+  }
+
+  void skipCharacter() {
+    if (!isAtEnd()) ++m_at;
   }
 
   std::string_view word() {
@@ -175,6 +187,32 @@ class StepScanner {
   std::size_t m_at = 0;
 };
 
+/// A statement of a STEP file as #7=IFCWALL('name',#5,(#6)), with what it names at any depth.
+struct StepStatement {
+  std::string_view number;
+  std::string_view kind;
+  std::vector<std::string_view> strings;
+  std::vector<std::string_view> references;
+};
+
+StepStatement statementOf(StepScanner& step) {
+  StepStatement statement;
+  if (!step.take('#')) return statement;
+  statement.number = step.word();
+  if (step.take('=')) statement.kind = step.word();
+  while (!step.isAtEnd() && !step.isBefore(';')) {
+    if (step.isBefore('\'')) {
+      const std::optional<std::string_view> text = step.string();
+      if (text) statement.strings.push_back(*text);
+    } else if (step.take('#')) {
+      statement.references.push_back(step.word());
+    } else {
+      step.skipCharacter();
+    }
+  }
+  return statement;
+}
+
 /// What the rest of a statement says that begins like #7=IFCWALL('1AvctVUKr0kugbFTf53O9L',#5,'name'.
 void readName(StepScanner& step, std::unordered_map<std::string, std::string>& names) {
   if (!step.take('#') || step.word().empty() || !step.take('=') || !step.word().starts_with("IFC")) return;
@@ -200,6 +238,36 @@ std::unordered_map<std::string, std::string> ifcNames(std::string_view text) {
     step.skipStatement();
   }
   return names;
+}
+
+std::unordered_set<std::string> ifcProductsOfBoxes(std::string_view text, const std::unordered_set<std::string>& ids) {
+  using References = std::vector<std::string_view>;
+  std::unordered_set<std::string_view> boxes;                    // representations that are one
+  std::unordered_map<std::string_view, References> definitions;  // representations of each
+  std::vector<std::pair<std::string_view, References>> products;
+  StepScanner step(text);
+  for (; !step.isAtEnd(); step.skipStatement()) {
+    StepStatement statement = statementOf(step);
+    const auto& strings = statement.strings;
+    if (statement.kind == "IFCSHAPEREPRESENTATION" && !strings.empty() && strings.back() == "BoundingBox") {
+      boxes.insert(statement.number);
+    } else if (statement.kind == "IFCPRODUCTDEFINITIONSHAPE") {
+      definitions[statement.number] = std::move(statement.references);
+    } else if (!strings.empty() && ids.contains(std::string(strings.front()))) {
+      products.emplace_back(strings.front(), std::move(statement.references));
+    }
+  }
+  std::unordered_set<std::string> found;
+  for (const auto& [id, references] : products) {
+    for (const std::string_view reference : references) {
+      const auto shape = definitions.find(reference);
+      if (shape == definitions.end()) continue;
+      const References& parts = shape->second;
+      if (std::any_of(parts.begin(), parts.end(), [&boxes](std::string_view part) { return boxes.contains(part); }))
+        found.emplace(id);
+    }
+  }
+  return found;
 }
 
 }  // namespace allpairs::scene

@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 #include <unordered_map>
+#include <unordered_set>
 
 namespace allpairs::scene {
 
@@ -11,6 +12,12 @@ namespace allpairs::scene {
 ///
 /// Cost: linear in the text. What is no STEP file has no names.
 [[nodiscard]] std::unordered_map<std::string, std::string> ifcNames(std::string_view text);
+
+/// Of some products of an IFC, by their GlobalIds, those that have a bounding box for a shape.
+///
+/// Cost: linear in the text.
+[[nodiscard]] std::unordered_set<std::string> ifcProductsOfBoxes(std::string_view text,
+                                                                 const std::unordered_set<std::string>& ids);
 
 /// A string of a STEP file, without its quotes, in UTF-8; what is not encoded stays as it is.
 ///

@@ -83,7 +83,8 @@ struct FileWarning {
 /// Reads what else Assimp reads: an object for each node that shows a mesh, with the node's transform applied in double
 /// to positions that Assimp gives as float32. Coordinates are those of the file: what Assimp does to turn y up and to
 /// measure in metres, as for IFC, is undone, and `frame` says which axis is up in the file and how long its unit is.
-/// `warnings` says which shapes of an IFC Assimp does not read, and how coordinates far from the origin are rounded.
+/// `warnings` says which shapes of an IFC, an X3D or a DXF Assimp does not read, what of an IFC or a DXF it puts
+/// elsewhere, and how coordinates far from the origin are rounded.
 ///
 /// Bad input: throws FileError. Assimp runs in a process of its own: a file that makes it fail, or loop, or take all
 ///            memory, fails, loops and takes it there.
