@@ -394,5 +394,20 @@ TEST(MissingShape, APolylineOfADxfOfOnePieceIsRead) {
   EXPECT_EQ(problemReading("a.dxf", polyline("230\n-1\n", "")), problem);
 }
 
+TEST(MissingShape, ATextOfADxfThatHidesShapesIsAnError) {
+  const std::string face = kFace;
+  const std::string text = "0\nMTEXT\n8\n0\n10\n0\n20\n0\n30\n0\n1\n{\\fArial|b0;room}\n";
+  const std::string group =
+      "0\nLINE\n5\n2A\n102\n{ACAD_REACTORS\n330\n2\n102\n}\n8\nwalls\n10\n1\n20\n2\n30\n3\n11\n5\n";
+  const std::string problem = ": what follows a text that begins with '{' is not read; remove it";
+  EXPECT_EQ(problemReading("a.dxf", dxf("", face + text + face)), "50" + problem);
+  EXPECT_EQ(problemReading("a.dxf", dxf("", face + text + group)), "50" + problem);
+  EXPECT_EQ(problemReading("a.dxf", dxf(dxfBlock("B", face), face + text + dxfInsert(""))), "92" + problem);
+  EXPECT_EQ(problemReading("a.dxf", dxf(dxfBlock("B", text + face) + group, face + dxfInsert(""))), "28" + problem);
+  EXPECT_EQ(problemReading("a.dxf", dxf("", face + text)), "none");
+  EXPECT_EQ(problemReading("a.dxf", dxf("", face + text + kDxfText + "0\nTEXT\n1\n\n" + face + group + face)), "none");
+  EXPECT_EQ(problemReading("a.dxf", dxf("", face + group + face)), "none");
+}
+
 }  // namespace
 }  // namespace allpairs::test

@@ -73,6 +73,7 @@ struct DxfBlock {
   struct Inserts {
     std::size_t line = 0;        ///< Of the first.
     std::size_t turnedLine = 0;  ///< Of the first that does more than move the block.
+    std::size_t hidingLine = 0;  ///< Of a text that hides one.
   };
 
   /// What identifies it and says where it lies.
@@ -90,6 +91,7 @@ struct DxfBlock {
   std::map<std::string, Inserts> inserts;
   std::size_t insertLine = 0;                     ///< Of the first block in it, behind which Assimp reads nothing.
   bool isCut = false;                             ///< Shapes are behind that.
+  std::size_t hidingLine = 0;                     ///< Of a text that hides shapes of it, its head or its end.
   std::pair<std::size_t, std::string> problem{};  ///< Of the first entity that is not read, and its line.
   KindCounts curves;
 
@@ -109,6 +111,7 @@ class DxfCheck {
     finishPolyline();
     findBlocks();
     propagateShapes();
+    if (m_blocks[kDrawing].hidingLine != 0) failOfHiding(m_blocks[kDrawing].hidingLine);
     checkInserts();
     lookAtShown();
     countPaperInserts();
@@ -126,7 +129,18 @@ class DxfCheck {
     m_value = trimmed(takeLine(m_rest));
     m_line += 2;
     if (parseWhole(code, m_code) != std::errc()) m_code = -1;
+    takeBraces();
     return true;
+  }
+
+  /// Assimp reads nothing between any value that begins with { and the next that begins with } or is empty.
+  void takeBraces() {
+    m_hidingLine = m_braceLine;
+    if (m_hidingLine == 0) {
+      if (m_value.starts_with('{')) m_braceLine = m_line;
+    } else if (m_value.empty() || m_value.starts_with('}')) {
+      m_braceLine = 0;
+    }
   }
 
   void takeValue() {
@@ -156,7 +170,9 @@ class DxfCheck {
     m_name.clear();
     m_onlyMoves = true;
     m_isPaper = false;
+    m_hider = m_hidingLine;
     if (m_kind != "VERTEX") finishPolyline();
+    if (m_kind == "ENDBLK" && m_block != kNone && m_hider != 0) m_blocks[m_block].hidingLine = m_hider;
     if (m_kind == "ENDSEC") m_section.clear();
     if (m_section == "ENTITIES") {
       m_block = kDrawing;
@@ -180,6 +196,7 @@ class DxfCheck {
     DxfBlock& block = m_blocks[m_block];
     takeOfHead(block.head);
     takeOfHead(block.ofAssimp);
+    if (m_hidingLine != 0) block.hidingLine = m_hidingLine;
     constexpr std::int64_t kIsElsewhere = 4 | 8;
     if (m_code == 70) block.isElsewhere = (flags() & kIsElsewhere) != 0;
   }
@@ -243,6 +260,7 @@ class DxfCheck {
     if (m_isPaper) ++m_paper[m_kind];
     if (m_isPaper) return;
     block.hasShapes = block.holdsShapes = true;
+    if (m_hider != 0 && block.hidingLine == 0) block.hidingLine = m_hider;
     block.isCut = block.isCut || block.insertLine != 0;
   }
 
@@ -250,6 +268,7 @@ class DxfCheck {
     DxfBlock::Inserts& inserts = block.inserts[m_name];
     if (inserts.line == 0) inserts.line = m_begin;
     if (!m_onlyMoves && inserts.turnedLine == 0) inserts.turnedLine = m_begin;
+    if (m_hider != 0 && inserts.hidingLine == 0) inserts.hidingLine = m_hider;
     if (block.insertLine == 0) block.insertLine = m_begin;
   }
 
@@ -321,6 +340,9 @@ class DxfCheck {
   }
 
   void checkInsert(const DxfBlock& block, const DxfBlock::Inserts& inserts) const {
+    for (const std::size_t line : {inserts.hidingLine, block.hidingLine}) {
+      if (line != 0) failOfHiding(line);
+    }
     if (inserts.turnedLine != 0)
       fail(inserts.turnedLine, "an INSERT that turns, scales or repeats its block is not read; explode it");
     const bool isNested = std::any_of(block.inserts.begin(), block.inserts.end(), [this](const auto& nested) {
@@ -329,6 +351,10 @@ class DxfCheck {
     });
     if (isNested || block.isCut) fail(block.insertLine, "a block within a block is not read; explode it");
     if (block.hasShapes && isMisplaced(block)) failOfStray(block);
+  }
+
+  [[noreturn]] void failOfHiding(std::size_t line) const {
+    fail(line, "what follows a text that begins with '{' is not read; remove it");
   }
 
   [[noreturn]] void failOfStray(const DxfBlock& block) const {
@@ -399,12 +425,15 @@ class DxfCheck {
   std::int64_t m_code = 0;
   std::string_view m_value;
   std::string m_section;
-  std::size_t m_block = kNone;  ///< That is being read.
-  std::string m_kind;           ///< Of the entity that is being read.
-  std::size_t m_begin = 0;      ///< Its line.
-  std::string m_name;           ///< Of the block that it inserts.
-  bool m_onlyMoves = true;      ///< It moves that block, and does nothing else to it.
-  bool m_isPaper = false;       ///< It is no part of the model.
+  std::size_t m_block = kNone;   ///< That is being read.
+  std::string m_kind;            ///< Of the entity that is being read.
+  std::size_t m_begin = 0;       ///< Its line.
+  std::string m_name;            ///< Of the block that it inserts.
+  bool m_onlyMoves = true;       ///< It moves that block, and does nothing else to it.
+  bool m_isPaper = false;        ///< It is no part of the model.
+  std::size_t m_hider = 0;       ///< The line of the text that hides its begin; 0 where none does.
+  std::size_t m_hidingLine = 0;  ///< The same of the value that is being read.
+  std::size_t m_braceLine = 0;   ///< The line of the text that hides what comes next.
   Polyline m_polyline;
   std::vector<DxfBlock> m_blocks{1};
   std::map<std::string, std::size_t> m_byName;

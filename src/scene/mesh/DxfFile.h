@@ -15,7 +15,8 @@ namespace allpairs::scene {
 ///
 /// Bad input: throws FileError, with its line, for blocks that are turned, scaled, repeated or in each other, that are
 ///            inserted by a name in another case, or in which another entity gives Assimp their base or name; for
-///            polylines of several pieces that are no polyface meshes or hide edges of their faces; and for solids.
+///            polylines of several pieces that are no polyface meshes or hide edges of their faces; for solids; and for
+///            texts that begin with a brace, behind which Assimp reads nothing for a while, where shapes are there.
 /// Reference: AutoCAD DXF Reference, "ENTITIES Section"; Assimp 5.2, DXFLoader.
 void checkDxf(const std::filesystem::path& path, const ReadScope& scope, std::vector<FileWarning>& warnings);
 
