@@ -88,6 +88,7 @@ std::optional<Split> bestSplit(std::span<const Box> reaches, double low, std::ve
 }
 
 std::int32_t sideOfCell(std::size_t number) { return ~static_cast<std::int32_t>(number); }
+std::size_t cellOfSide(std::int32_t side) { return static_cast<std::uint32_t>(~side); }
 
 /// Where a walk begins: at the first cut, or in the only cell.
 std::int32_t rootOf(std::span<const Cut> cuts) { return cuts.empty() ? sideOfCell(0) : 0; }
@@ -133,7 +134,7 @@ class Wanted {
 
   /// Whether any of them is on a side of a cut.
   [[nodiscard]] bool isIn(std::int32_t side) const {
-    return side < 0 ? parts(static_cast<std::size_t>(~side)) != 0 : m_leads[static_cast<std::size_t>(side)];
+    return side < 0 ? parts(cellOfSide(side)) != 0 : m_leads[static_cast<std::size_t>(side)];
   }
   /// Into how many parts; 0 of another cell.
   [[nodiscard]] std::size_t parts(std::size_t number) const { return m_parts[number]; }
@@ -322,7 +323,7 @@ bool Partition::cutAgain(Span<const CellToCut> given, const BoxView& sample, dou
     if (part.side < 0) {
       own.clear();
       for (const std::uint32_t reach : part.reaches) own.push_back(within(part.bounds, reaches[reach]));
-      const auto number = static_cast<std::size_t>(~part.side);
+      const std::size_t number = cellOfSide(part.side);
       const std::int32_t side = Cutter(cuts, cuts.size() + 1).cut(own, number, wanted.parts(number));
       if (m_cuts.empty()) continue;
       Cut& above = cuts[part.above];

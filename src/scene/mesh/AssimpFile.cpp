@@ -408,7 +408,8 @@ std::vector<MeshObject> importObjects(const Path& path, ReadScope& scope, MeshFr
   const std::string extension = lowerExtension(path);
   const double amfUnit = extension == ".amf" ? checkedAmfUnit(path) : 0.0;
   const AssimpLog& log = AssimpLog::start();
-  static auto* const importer = new Assimp::Importer;  // never freed: Assimp crashes where it frees pictures of a 3MF
+  // Never freed: Assimp crashes where it frees pictures of a 3MF.
+  static auto* const importer = new Assimp::Importer;  // NOLINT(cppcoreguidelines-owning-memory)
   auto owned = std::make_unique<ScopedFiles>(path, scope);
   const ScopedFiles* files = owned.get();
   importer->SetIOHandler(owned.release());  // which owns it

@@ -47,7 +47,7 @@ std::string_view wordBehind(std::string_view message, std::string_view text) {
 }  // namespace
 
 const AssimpLog& AssimpLog::start() {
-  auto* const log = new AssimpLog;
+  auto* const log = new AssimpLog;  // NOLINT(cppcoreguidelines-owning-memory): Assimp owns it
   Assimp::DefaultLogger::set(log);
   return *log;
 }
