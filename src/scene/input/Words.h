@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <initializer_list>
 #include <limits>
 #include <optional>
 #include <string>
@@ -49,6 +50,10 @@ inline constexpr std::string_view kBlanks = " \t\r\f\v";
 }
 
 [[nodiscard]] inline std::string quotedWord(std::string_view word) { return "'" + shortWord(word) + "'"; }
+
+[[nodiscard]] inline bool isOneOf(std::string_view word, std::initializer_list<std::string_view> words) {
+  return std::find(words.begin(), words.end(), word) != words.end();
+}
 
 [[nodiscard]] inline std::string lowerCase(std::string_view text) {
   std::string result(text);

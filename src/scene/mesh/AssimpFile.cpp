@@ -3,7 +3,6 @@
 #include <assimp/config.h>
 #include <assimp/scene.h>
 #include <algorithm>
-#include <array>
 #include <assimp/IOSystem.hpp>
 #include <assimp/Importer.hpp>
 #include <cstring>
@@ -58,10 +57,7 @@ std::span<T* const> spanOf(T* const* items, unsigned count) {
 }
 
 /// Names that Assimp's readers make up where the file has none.
-bool isMadeUp(std::string_view name) {
-  static constexpr std::array<std::string_view, 3> kMadeUp{"ROOT", "RootNode", "<DummyRootNode>"};
-  return name.empty() || std::find(kMadeUp.begin(), kMadeUp.end(), name) != kMadeUp.end();
-}
+bool isMadeUp(std::string_view name) { return name.empty() || isOneOf(name, {"ROOT", "RootNode", "<DummyRootNode>"}); }
 
 /// Whether Assimp has made a node of a part of an FBX's transform: "arm_$AssimpFbx$_PreRotation".
 bool isStepOfTransform(const aiNode& node) {
@@ -83,17 +79,14 @@ std::optional<IfcProduct> ifcProductOf(const std::string& text) {
 
 /// Whether a class is of a place, which holds products and is no part of one.
 bool isSpatial(std::string_view kind) {
-  static constexpr std::array<std::string_view, 5> kSpatial{"IfcProject", "IfcSite", "IfcBuilding", "IfcBuildingStorey",
-                                                            "IfcSpace"};
-  return std::find(kSpatial.begin(), kSpatial.end(), kind) != kSpatial.end();
+  return isOneOf(kind, {"IfcProject", "IfcSite", "IfcBuilding", "IfcBuildingStorey", "IfcSpace"});
 }
 
 /// Whether products of a class have no body: holes, ports, loads, and what drawings show.
 bool isWithoutBody(std::string_view kind) {
-  static constexpr std::array<std::string_view, 6> kBodiless{
-      "IfcOpeningElement", "IfcVoidingFeature", "IfcAnnotation", "IfcVirtualElement", "IfcDistributionPort", "IfcGrid"};
   return isSpatial(kind) || kind.starts_with("IfcStructural") ||
-         std::find(kBodiless.begin(), kBodiless.end(), kind) != kBodiless.end();
+         isOneOf(kind, {"IfcOpeningElement", "IfcVoidingFeature", "IfcAnnotation", "IfcVirtualElement",
+                        "IfcDistributionPort", "IfcGrid"});
 }
 
 class NodeReader {
@@ -480,8 +473,7 @@ std::vector<MeshObject> readAssimpObjects(const Path& path, ReadScope& scope, Me
                                         [&scope](std::uint64_t bytes) { scope.take(2 * bytes); });
   if (answer.empty()) throw FileError(path, "cannot be read as a mesh: Assimp fails on it");
   if (answer.front() == kProblem) throw FileError(path, answer.substr(1));
-  std::vector<MeshObject> objects = ObjectTransfer::unpack(std::string_view(answer).substr(1), frame, warnings);
-  return objects;
+  return ObjectTransfer::unpack(std::string_view(answer).substr(1), frame, warnings);
 }
 
 }  // namespace allpairs::scene

@@ -3,10 +3,11 @@
 
 #include <assimp/scene.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string_view>
+
+#include "input/Words.h"
 
 namespace allpairs::scene {
 namespace {
@@ -71,10 +72,6 @@ bool saysUnit(std::string_view bytes) {
     if (at > 0 && (bytes[at - 1] == '"' || bytes[at - 1] == '\0')) return true;  // OriginalUnitScaleFactor is another
   }
   return false;
-}
-
-bool isOneOf(std::string_view extension, std::initializer_list<std::string_view> some) {
-  return std::find(some.begin(), some.end(), extension) != some.end();
 }
 
 }  // namespace

@@ -10,14 +10,12 @@
 namespace allpairs::scene {
 namespace {
 
-/// Whether items of an IFC's representation are lines, points, texts and the like, which no body is missing for.
+/// Whether items of an IFC's representation are lines, points or texts: without them no body is missing.
 bool isNoBody(std::string_view kind) {
   static constexpr std::array<std::string_view, 7> kParts{"Curve",   "Polyline", "Annotation", "TextLiteral",
                                                           "Ellipse", "Circle",   "LightSource"};
-  static constexpr std::array<std::string_view, 9> kKinds{"IfcLine",   "IfcGeometricSet",   "IfcDefinedSymbol",
-                                                          "IfcPoint",  "IfcCartesianPoint", "IfcPlacement",
-                                                          "IfcVector", "IfcDirection",      "IfcPlanarExtent"};
-  return std::find(kKinds.begin(), kKinds.end(), kind) != kKinds.end() ||
+  return isOneOf(kind, {"IfcLine", "IfcGeometricSet", "IfcDefinedSymbol", "IfcPoint", "IfcCartesianPoint",
+                        "IfcPlacement", "IfcVector", "IfcDirection", "IfcPlanarExtent"}) ||
          std::any_of(kParts.begin(), kParts.end(),
                      [kind](std::string_view part) { return kind.find(part) != std::string_view::npos; });
 }
@@ -25,7 +23,7 @@ bool isNoBody(std::string_view kind) {
 /// Whether it is a point, an edge or a face of an IFC's topology, as of a structural analysis.
 bool isTopology(std::string_view kind) {
   static constexpr std::array<std::string_view, 4> kParts{"IfcVertex", "IfcEdge", "IfcFaceSurface", "IfcPath"};
-  return kind == "IfcOrientedEdge" || kind == "IfcSubedge" || kind == "IfcFace" ||
+  return isOneOf(kind, {"IfcOrientedEdge", "IfcSubedge", "IfcFace"}) ||
          std::any_of(kParts.begin(), kParts.end(), [kind](std::string_view part) { return kind.starts_with(part); });
 }
 

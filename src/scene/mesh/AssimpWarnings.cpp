@@ -22,9 +22,7 @@ std::string firstOf(const std::vector<std::string>& names) {
 }
 
 std::string notRead(const std::set<std::string>& kinds) {
-  std::string text;
-  for (const std::string& kind : kinds) text += (text.empty() ? "" : ", ") + kind;
-  return text + (kinds.size() == 1 ? " is not read" : " are not read");
+  return fmt::format("{} {} not read", fmt::join(kinds, ", "), kinds.size() == 1 ? "is" : "are");
 }
 
 void warnOfMissing(const std::filesystem::path& path, const std::set<std::string>& kinds,
@@ -32,7 +30,7 @@ void warnOfMissing(const std::filesystem::path& path, const std::set<std::string
   if (kinds.empty() && shapeless.empty()) return;
   std::unordered_set<std::string> ids;
   for (const IfcProduct& product : shapeless) ids.insert(product.id);
-  if (kinds.empty()) ids = ifcProductsOfBoxes(readText(path), ids);  // which Assimp passes over without a word
+  if (kinds.empty()) ids = ifcProductsOfBoxes(readText(path), ids);  // of which Assimp says nothing
   std::vector<std::string> names;
   for (const IfcProduct& product : shapeless) {
     if (ids.contains(product.id)) names.push_back(product.name);

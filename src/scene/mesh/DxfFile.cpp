@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -25,27 +24,17 @@ namespace {
 
 using Path = std::filesystem::path;
 
-template <std::size_t N>
-bool isAmong(const std::array<std::string_view, N>& kinds, std::string_view kind) {
-  return std::find(kinds.begin(), kinds.end(), kind) != kinds.end();
-}
-
 bool isDxfSolid(std::string_view kind) {
-  static constexpr std::array<std::string_view, 4> kSolids{"3DSOLID", "BODY", "REGION", "MESH"};
-  return isAmong(kSolids, kind) || kind.ends_with("SURFACE");
+  return isOneOf(kind, {"3DSOLID", "BODY", "REGION", "MESH"}) || kind.ends_with("SURFACE");
 }
 
 bool isDxfCurve(std::string_view kind) {
-  static constexpr std::array<std::string_view, 12> kCurves{
-      "ARC", "CIRCLE", "ELLIPSE", "HATCH", "HELIX", "LWPOLYLINE", "MLINE", "POINT", "RAY", "SOLID", "SPLINE", "TRACE"};
-  return isAmong(kCurves, kind);
+  return isOneOf(kind, {"ARC", "CIRCLE", "ELLIPSE", "HATCH", "HELIX", "LWPOLYLINE", "MLINE", "POINT", "RAY", "SOLID",
+                        "SPLINE", "TRACE"});
 }
 
 /// Whether Assimp makes lines or faces of it. VERTEX is a part of POLYLINE.
-bool isDxfShape(std::string_view kind) {
-  static constexpr std::array<std::string_view, 5> kShapes{"3DFACE", "LINE", "3DLINE", "POLYLINE", "VERTEX"};
-  return isAmong(kShapes, kind);
-}
+bool isDxfShape(std::string_view kind) { return isOneOf(kind, {"3DFACE", "LINE", "3DLINE", "POLYLINE", "VERTEX"}); }
 
 /// Whether two numbers differ by no more than what programs that write them round.
 bool isSame(double a, double b) {

@@ -1,38 +1,29 @@
 // SPDX-License-Identifier: MIT
 #include "mesh/X3dNodes.h"
 
-#include <algorithm>
-#include <array>
 #include <new>
 #include <pugixml.hpp>
 #include <string_view>
 
 #include "input/FileBytes.h"
+#include "input/Words.h"
 
 namespace allpairs::scene {
 namespace {
 
-template <std::size_t N>
-bool isOneOf(const std::array<std::string_view, N>& kinds, std::string_view kind) {
-  return std::find(kinds.begin(), kinds.end(), kind) != kinds.end();
-}
-
 bool isX3dShape(std::string_view kind) {
-  static constexpr std::array<std::string_view, 12> kShapes{
-      "GeoElevationGrid",  "IndexedQuadSet",      "NurbsCurve",    "NurbsPatchSurface", "NurbsSweptSurface",
-      "NurbsSwungSurface", "NurbsTrimmedSurface", "ProtoInstance", "QuadSet",           "Text",
-      "NurbsSet",          "VolumeData"};
-  return isOneOf(kShapes, kind);
+  return isOneOf(
+      kind, {"GeoElevationGrid", "IndexedQuadSet", "NurbsCurve", "NurbsPatchSurface", "NurbsSweptSurface",
+             "NurbsSwungSurface", "NurbsTrimmedSurface", "ProtoInstance", "QuadSet", "Text", "NurbsSet", "VolumeData"});
 }
 
 bool isX3dGroup(std::string_view kind) {
-  static constexpr std::array<std::string_view, 26> kGroups{
-      "Anchor",          "Billboard",     "CADAssembly",    "CADFace",       "CADLayer",    "CADPart",
-      "CollidableShape", "Collision",     "EspduTransform", "GeoLOD",        "GeoLocation", "GeoTransform",
-      "HAnimHumanoid",   "HAnimJoint",    "HAnimSegment",   "HAnimSite",     "LOD",         "Layer",
-      "LayerSet",        "LayoutGroup",   "LayoutLayer",    "PickableGroup", "ScreenGroup", "StaticGroup",
-      "Viewport",        "ViewpointGroup"};
-  return isOneOf(kGroups, kind);
+  return isOneOf(kind,
+                 {"Anchor",          "Billboard",     "CADAssembly",    "CADFace",       "CADLayer",    "CADPart",
+                  "CollidableShape", "Collision",     "EspduTransform", "GeoLOD",        "GeoLocation", "GeoTransform",
+                  "HAnimHumanoid",   "HAnimJoint",    "HAnimSegment",   "HAnimSite",     "LOD",         "Layer",
+                  "LayerSet",        "LayoutGroup",   "LayoutLayer",    "PickableGroup", "ScreenGroup", "StaticGroup",
+                  "Viewport",        "ViewpointGroup"});
 }
 
 /// Whether a node is a shape, or one that may be: another file, or a node elsewhere in this one.

@@ -7,8 +7,8 @@
 
 namespace allpairs::scene {
 
-/// Those of some kinds of nodes, which Assimp leaves out, that are shapes, or in the file hold some: not viewpoints,
-/// sensors and the like, nor groups without shapes.
+/// Of the kinds of nodes that Assimp leaves out, those of shapes and of groups that hold shapes in this file.
+/// Viewpoints, sensors and groups without shapes are not among them.
 ///
 /// Reference: ISO/IEC 19775-1, X3D architecture.
 [[nodiscard]] std::set<std::string> x3dNodesOfShapes(const std::filesystem::path& path,
