@@ -201,4 +201,10 @@ Box parseRegion(const std::string& text) {
   return box;
 }
 
+void checkPairFileName(const std::string& output) {
+  const std::string extension = lowerExtension(output);
+  if (extension.empty() || extension == ".npy") return;
+  throw UsageError("join writes .npy files; the name of its output ends in something else");
+}
+
 }  // namespace allpairs::app

@@ -89,6 +89,11 @@ void addBoxValues(CLI::App& command, BoxSetArguments& arguments);
 /// All files that are named.
 [[nodiscard]] std::vector<std::filesystem::path> filesOf(const BoxSetArguments& arguments);
 
+/// Checks the name of a file that a join writes: it ends in ".npy", in letters of any case, or has no ending.
+///
+/// Bad input: another one throws UsageError.
+void checkPairFileName(const std::string& output);
+
 /// The region that follows --box: x0,y0,z0,x1,y1,z1 with min < max on every axis.
 ///
 /// Bad input: throws UsageError.

@@ -116,10 +116,7 @@ bool isForAnotherFolder(const FileError& problem, const std::filesystem::path& w
 void runJoin(const JoinSettings& settings) {
   if (!settings.hasOutput && !settings.count) throw UsageError("join takes -o FILE, or --count");
   if (settings.hasOutput && settings.count) throw UsageError("--count writes no pairs: -o has nothing to hold");
-  const std::string extension = lowerExtension(settings.output);
-  if (!extension.empty() && extension != ".npy") {
-    throw UsageError("join writes .npy files; the name of its output ends in something else");
-  }
+  checkPairFileName(settings.output);
   scene::checkIsNoInput(settings.output, filesOf(settings.shared.sets));
   join::JoinOptions options = joinOptions(settings.shared);
   const std::unique_ptr<Executor> executor = executorOf(settings.threads);

@@ -138,10 +138,7 @@ class Join {
     if (output.empty() && !m_settings.count) throw UsageError("join takes -o FILE, or --count");
     if (!output.empty() && m_settings.count) throw UsageError("--count writes no pairs: -o has nothing to hold");
     if (output == "-") throw UsageError("-o: the ranks write a file, and not to standard output");
-    const std::string extension = allpairs::app::lowerExtension(output);
-    if (!extension.empty() && extension != ".npy") {
-      throw UsageError("join writes .npy files; the name of its output ends in something else");
-    }
+    allpairs::app::checkPairFileName(output);
     allpairs::mpi::onAllRanks(MPI_COMM_WORLD, [this] {
       if (m_rank == 0) allpairs::scene::checkIsNoInput(m_settings.output, allpairs::app::filesOf(m_settings.sets));
     });
