@@ -27,7 +27,6 @@
 #include "mesh/AssimpLog.h"
 #include "mesh/AssimpWarnings.h"
 #include "mesh/ChildProcess.h"
-#include "mesh/DxfFile.h"
 #include "mesh/Faces.h"
 #include "mesh/IfcNames.h"
 #include "mesh/MeshObject.h"
@@ -213,7 +212,7 @@ class NodeReader {
   /// The node's own name, else that of its mesh, of which Assimp numbers the parts.
   std::string nameOf(const aiNode& node) const {
     std::string name = node.mName.C_Str();
-    const bool isRoot = &node == m_scene.mRootNode && name.starts_with('<') && name.ends_with('>');  // <DXF_ROOT>
+    const bool isRoot = &node == m_scene.mRootNode && name.starts_with('<') && name.ends_with('>');  // <3DSRoot>
     if (!isUnnamed(name) && !isRoot) return name;
     std::string meshName = m_scene.mMeshes[node.mMeshes[0]]->mName.C_Str();
     if (node.mNumMeshes > 1 && meshName.ends_with("-0")) meshName.resize(meshName.size() - 2);
@@ -310,16 +309,15 @@ class ScopedFiles final : public Assimp::IOSystem {
   bool m_opensOthers = false;
 };
 
-/// Carries objects from one process to another of the same program.
+/// Carries objects, and notes without remarks, from one process to another of the same program.
 class ObjectTransfer {
  public:
-  static std::string pack(const std::vector<MeshObject>& objects, const MeshFrame& frame,
-                          const std::vector<FileWarning>& warnings) {
+  static std::string pack(const std::vector<MeshObject>& objects, const FileNotes& notes) {
     std::string bytes(1, kResult);
-    bytes.append(reinterpret_cast<const char*>(&frame), sizeof(frame));
-    const std::uint64_t count = warnings.size();
+    bytes.append(reinterpret_cast<const char*>(&notes.frame), sizeof(notes.frame));
+    const std::uint64_t count = notes.warnings.size();
     bytes.append(reinterpret_cast<const char*>(&count), sizeof(count));
-    for (const FileWarning& warning : warnings) {
+    for (const FileWarning& warning : notes.warnings) {
       put(bytes, warning.subject);
       put(bytes, warning.reason);
     }
@@ -327,13 +325,13 @@ class ObjectTransfer {
     return bytes;
   }
 
-  static std::vector<MeshObject> unpack(std::string_view bytes, MeshFrame& frame, std::vector<FileWarning>& warnings) {
+  static std::vector<MeshObject> unpack(std::string_view bytes, FileNotes& notes) {
     std::vector<MeshObject> objects;
-    copy(bytes, &frame, sizeof(frame));
-    if (frame.up < 0 || frame.up > 3) frame = {};
+    copy(bytes, &notes.frame, sizeof(notes.frame));
+    if (notes.frame.up < 0 || notes.frame.up > 3) notes.frame = {};
     std::uint64_t count = 0;
     for (copy(bytes, &count, sizeof(count)); count > 0; --count) {
-      FileWarning& warning = warnings.emplace_back();
+      FileWarning& warning = notes.warnings.emplace_back();
       take(bytes, warning.subject);
       take(bytes, warning.reason);
     }
@@ -396,8 +394,7 @@ class ObjectTransfer {
 };
 
 /// In the child process, which ends with all that it has.
-std::vector<MeshObject> importObjects(const Path& path, ReadScope& scope, MeshFrame& frame,
-                                      std::vector<FileWarning>& warnings) {
+std::vector<MeshObject> importObjects(const Path& path, ReadScope& scope, FileNotes& notes) {
   const std::string extension = lowerExtension(path);
   const double amfUnit = extension == ".amf" ? checkedAmfUnit(path) : 0.0;
   const AssimpLog& log = AssimpLog::start();
@@ -417,28 +414,27 @@ std::vector<MeshObject> importObjects(const Path& path, ReadScope& scope, MeshFr
   }
   if (log.parts() > 1) throw FileError(path, "has objects in several parts, which are not read: export it as one part");
   NodeReader reader(*scene, path, scope);
-  std::vector<MeshObject> objects = reader.read(frame);
-  if (extension == ".fbx") frame.metresPerUnit = unitOfFbx(*scene, readText(path));
-  if (extension == ".amf") frame.metresPerUnit = amfUnit;
+  std::vector<MeshObject> objects = reader.read(notes.frame);
+  if (extension == ".fbx") notes.frame.metresPerUnit = unitOfFbx(*scene, readText(path));
+  if (extension == ".amf") notes.frame.metresPerUnit = amfUnit;
   const std::set<std::string> nodes = x3dNodesOfShapes(path, log.skippedNodes());
   const std::set<std::string>& missing = log.missingKinds().empty() ? nodes : log.missingKinds();
   if (objects.empty() && !missing.empty())
     throw FileError(path, "holds no triangles, lines or points: " + notRead(missing));
-  if (!nodes.empty()) warnings.push_back({"shapes", notRead(nodes) + ": what they hold is missing"});
+  if (!nodes.empty()) notes.warnings.push_back({"shapes", notRead(nodes) + ": what they hold is missing"});
   if (!log.unknownPlacements().empty())
-    warnings.push_back({"placements", notRead(log.unknownPlacements()) + ": products are in wrong places"});
-  warnOfMissing(path, log.missingKinds(), reader.shapeless(), warnings);
-  warnOfRounding(objects, frame.metresPerUnit, warnings);
+    notes.warnings.push_back({"placements", notRead(log.unknownPlacements()) + ": products are in wrong places"});
+  warnOfMissing(path, log.missingKinds(), reader.shapeless(), notes.warnings);
+  warnOfRounding(objects, notes.frame.metresPerUnit, notes.warnings);
   return objects;
 }
 
 /// The objects, or what is wrong.
 std::string importInChild(const Path& path, ReadScope& scope) {
   try {
-    MeshFrame frame;
-    std::vector<FileWarning> warnings;
-    const std::vector<MeshObject> objects = importObjects(path, scope, frame, warnings);
-    return ObjectTransfer::pack(objects, frame, warnings);
+    FileNotes notes;
+    const std::vector<MeshObject> objects = importObjects(path, scope, notes);
+    return ObjectTransfer::pack(objects, notes);
   } catch (const FileError& problem) {
     return kProblem + problem.problem();
   } catch (const std::bad_alloc&) {
@@ -462,9 +458,7 @@ bool isAssimpFile(const Path& path) {
   return !extension.empty() && !isCadFile(path) && Assimp::Importer().IsExtensionSupported(extension.c_str());
 }
 
-std::vector<MeshObject> readAssimpObjects(const Path& path, ReadScope& scope, MeshFrame& frame,
-                                          std::vector<FileWarning>& warnings) {
-  if (lowerExtension(path) == ".dxf") checkDxf(path, scope, warnings);
+std::vector<MeshObject> readAssimpObjects(const Path& path, ReadScope& scope, FileNotes& notes) {
   constexpr std::uint64_t kSeconds = 10;
   constexpr std::uint64_t kBytesPerSecond = 1 << 20;       // the slowest of Assimp's readers on honest files
   const std::uint64_t size = InputFile(path).remaining();  // what is no file is refused here
@@ -473,7 +467,7 @@ std::vector<MeshObject> readAssimpObjects(const Path& path, ReadScope& scope, Me
                                         [&scope](std::uint64_t bytes) { scope.take(2 * bytes); });
   if (answer.empty()) throw FileError(path, "cannot be read as a mesh: Assimp fails on it");
   if (answer.front() == kProblem) throw FileError(path, answer.substr(1));
-  return ObjectTransfer::unpack(std::string_view(answer).substr(1), frame, warnings);
+  return ObjectTransfer::unpack(std::string_view(answer).substr(1), notes);
 }
 
 }  // namespace allpairs::scene

@@ -99,7 +99,7 @@ Transform rootOfFile(const aiScene& scene, const std::string& extension, MeshFra
     if (isTurn(root, scale, kFromXUp)) frame.up = 1;
     return before(root, asWritten(scale), frame.up == 3 ? kFromZUp : (frame.up == 1 ? kFromXUp : kNone));
   }
-  if (isOneOf(extension, {".3ds", ".ase", ".ask", ".blend", ".dxf"})) {  // a 3DS may have a scale besides
+  if (isOneOf(extension, {".3ds", ".ase", ".ask", ".blend"})) {  // a 3DS may have a scale besides
     frame.up = 3;
     return isTurn(root, scale, kFromZUp) ? before(root, scale, kFromZUp) : root;
   }

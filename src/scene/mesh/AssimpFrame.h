@@ -16,7 +16,7 @@ namespace allpairs::scene {
 [[nodiscard]] Transform transformOf(const aiMatrix4x4t<float>& matrix);
 
 /// The transform of a scene's root into the coordinates of its file. Assimp turns some formats so that y is up, and
-/// measures in metres, by the root's own transform: of IFC, COLLADA, 3DS, ASE, DXF and Blender files this is taken
+/// measures in metres, by the root's own transform: of IFC, COLLADA, 3DS, ASE and Blender files this is taken
 /// back. So is the mirror that DirectX files come through.
 ///
 /// Reference: Assimp 5.2, the ends of IFCLoader, ColladaLoader, 3DSConverter, ASELoader, DXFLoader, XFileImporter and

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "mesh/DxfFile.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <map>
+#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -17,429 +17,424 @@
 #include "allpairs/scene/FileError.h"
 #include "input/FileBytes.h"
 #include "input/Words.h"
-#include "mesh/AssimpWarnings.h"
+#include "mesh/DxfBlocks.h"
+#include "mesh/DxfEntity.h"
+#include "mesh/Faces.h"
 
 namespace allpairs::scene {
 namespace {
 
 using Path = std::filesystem::path;
 
-bool isDxfSolid(std::string_view kind) {
+/// Metres for each number that $INSUNITS may be; 0 where it is unknown.
+double metresOf(std::int64_t unit) {
+  static constexpr std::array kMetres{0.0,
+                                      0.0254,
+                                      0.3048,
+                                      1609.344,
+                                      1e-3,
+                                      1e-2,
+                                      1.0,
+                                      1e3,
+                                      2.54e-8,
+                                      2.54e-5,
+                                      0.9144,
+                                      1e-10,
+                                      1e-9,
+                                      1e-6,
+                                      0.1,
+                                      10.0,
+                                      100.0,
+                                      1e9,
+                                      149597870700.0,
+                                      9460730472580800.0,
+                                      3.0856775814913673e16,
+                                      1200.0 / 3937.0};
+  const bool isKnown = unit > 0 && unit < static_cast<std::int64_t>(kMetres.size());
+  return isKnown ? kMetres[static_cast<std::size_t>(unit)] : 0.0;
+}
+
+/// What shows no shape: texts, dimensions, pictures, and what belongs to other entities.
+bool isAnnotation(std::string_view kind) {
+  return isOneOf(kind, {"ACAD_TABLE",
+                        "ARCALIGNEDTEXT",
+                        "ATTDEF",
+                        "ATTRIB",
+                        "DGNUNDERLAY",
+                        "DWFUNDERLAY",
+                        "GEOPOSITIONMARKER",
+                        "IMAGE",
+                        "LEADER",
+                        "LIGHT",
+                        "MLEADER",
+                        "MTEXT",
+                        "MULTILEADER",
+                        "OLE2FRAME",
+                        "OLEFRAME",
+                        "PDFUNDERLAY",
+                        "RTEXT",
+                        "SECTION",
+                        "SECTIONOBJECT",
+                        "SEQEND",
+                        "TEXT",
+                        "TOLERANCE",
+                        "VERTEX",
+                        "VIEWPORT",
+                        "WIPEOUT"}) ||
+         kind.ends_with("DIMENSION");
+}
+
+/// Shapes that a drawing cannot be understood without.
+bool isSolid(std::string_view kind) {
   return isOneOf(kind, {"3DSOLID", "BODY", "REGION", "MESH"}) || kind.ends_with("SURFACE");
 }
 
-bool isDxfCurve(std::string_view kind) {
-  return isOneOf(kind, {"ARC", "CIRCLE", "ELLIPSE", "HATCH", "HELIX", "LWPOLYLINE", "MLINE", "POINT", "RAY", "SOLID",
-                        "SPLINE", "TRACE"});
+/// A transform that turns around z by an angle in degrees: exactly, where that is a multiple of 90.
+Transform turn(double degrees) {
+  const double angle = std::remainder(degrees, 360.0);
+  double sine = std::sin(angle * (3.14159265358979323846 / 180.0));
+  double cosine = std::cos(angle * (3.14159265358979323846 / 180.0));
+  if (angle == 0.0 || std::abs(angle) == 180.0) sine = 0.0;
+  if (std::abs(angle) == 90.0) cosine = 0.0;
+  return {{{cosine, -sine, 0.0, 0.0}, {sine, cosine, 0.0, 0.0}, {0.0, 0.0, 1.0, 0.0}}};
 }
 
-/// Whether Assimp makes lines or faces of it. VERTEX is a part of POLYLINE.
-bool isDxfShape(std::string_view kind) { return isOneOf(kind, {"3DFACE", "LINE", "3DLINE", "POLYLINE", "VERTEX"}); }
-
-/// Whether two numbers differ by no more than what programs that write them round.
-bool isSame(double a, double b) {
-  constexpr double kNoise = 1e-9;
-  return std::abs(a - b) <= kNoise;
-}
-
-using KindCounts = std::map<std::string, std::size_t>;
-
-std::size_t totalOf(const KindCounts& counts) {
-  std::size_t total = 0;
-  for (const auto& [kind, count] : counts) total += count;
-  return total;
-}
-
-std::string kindsOf(const KindCounts& counts) {
-  std::string kinds;
-  for (const auto& [kind, count] : counts) kinds += (kinds.empty() ? "" : ", ") + kind;
-  return kinds;
-}
-
-/// What is in a block, or in the drawing itself.
-struct DxfBlock {
-  /// The places of a block in another one.
-  struct Inserts {
-    std::size_t line = 0;        ///< Of the first.
-    std::size_t turnedLine = 0;  ///< Of the first that does more than move the block.
-    std::size_t hidingLine = 0;  ///< Of a text that hides one.
-  };
-
-  /// What identifies it and says where it lies.
-  struct Head {
-    std::string name;
-    Point base{};
-  };
-
-  Head head;
-  Head ofAssimp;                                ///< Which takes it from any entity that it does not know.
-  std::pair<std::size_t, std::string> stray{};  ///< The line and kind of such an entity.
-  bool isElsewhere = false;                     ///< Its content is in another drawing.
-  bool hasShapes = false;                       ///< Of its own.
-  bool holdsShapes = false;                     ///< Also in the blocks in it.
-  std::map<std::string, Inserts> inserts;
-  std::size_t insertLine = 0;                     ///< Of the first block in it, behind which Assimp reads nothing.
-  bool isCut = false;                             ///< Shapes are behind that.
-  std::size_t hidingLine = 0;                     ///< Of a text that hides shapes of it, its head or its end.
-  std::pair<std::size_t, std::string> problem{};  ///< Of the first entity that is not read, and its line.
-  KindCounts curves;
-
-  void note(std::size_t line, std::string text) {
-    if (problem.first == 0) problem = {line, std::move(text)};
-  }
-};
-
-class DxfCheck {
+class DxfReader {
  public:
-  DxfCheck(std::string_view text, const Path& path, const ReadScope& scope)
-      : m_rest(text), m_path(path), m_scope(scope) {}
+  DxfReader(std::string_view text, const Path& path, ReadScope& scope) : m_rest(text), m_path(path), m_scope(scope) {}
 
-  void run(std::vector<FileWarning>& warnings) {
-    while (takePair()) takeValue();
-    finishEntity();
-    finishPolyline();
-    findBlocks();
-    propagateShapes();
-    if (m_blocks[kDrawing].hidingLine != 0) failOfHiding(m_blocks[kDrawing].hidingLine);
-    checkInserts();
-    lookAtShown();
-    countPaperInserts();
-    warn(warnings);
+  void read() {
+    DxfEntity entity(m_path, {}, 0);
+    DxfGroup group;
+    while (takeGroup(group)) {
+      if (group.code == 0) {
+        takeEntity(std::exchange(entity, DxfEntity(m_path, group.value, group.line)));
+        m_scope.checkStop();
+        if (group.value == "EOF") break;
+      } else if (entity.kind().empty() && group.code != kComment) {
+        throw FileError(m_path, "is no DXF file: it does not begin with a section", group.line);
+      } else {
+        entity.add(group);
+      }
+    }
+    takeEntity(entity);
+    if (!m_section.empty()) throw FileError(m_path, "ends within its section " + quotedWord(m_section), m_line);
   }
+
+  [[nodiscard]] const std::vector<DxfBlock>& blocks() const { return m_blocks; }
+  [[nodiscard]] double metresPerUnit() const { return m_metresPerUnit; }
+  /// How many entities of the paper space were left out.
+  [[nodiscard]] std::size_t paperEntities() const { return m_paperEntities; }
 
  private:
-  static constexpr std::size_t kDrawing = 0;  // in the list of blocks
+  static constexpr std::int64_t kComment = 999;
   static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 
-  /// A group code and its value, each on a line.
-  bool takePair() {
-    if (m_rest.empty()) return false;
+  struct Vertex {
+    Point position{};
+    double bulge = 0.0;
+    bool isWide = false;
+  };
+
+  /// A code and its value, each on a line.
+  bool takeGroup(DxfGroup& group) {
+    if (m_rest.find_first_not_of(" \t\r\n") == std::string_view::npos) return false;
     const std::string_view code = trimmed(takeLine(m_rest));
-    m_value = trimmed(takeLine(m_rest));
-    m_line += 2;
-    if (parseWhole(code, m_code) != std::errc()) m_code = -1;
-    takeBraces();
+    ++m_line;
+    if (parseWhole(code, group.code) != std::errc())
+      throw FileError(m_path, quotedWord(code) + " is no group code", m_line);
+    if (m_rest.empty()) throw FileError(m_path, "truncated: a group without a value", m_line);
+    group.value = trimmed(takeLine(m_rest));
+    group.line = ++m_line;
     return true;
   }
 
-  /// Assimp reads nothing between any value that begins with { and the next that begins with } or is empty.
-  void takeBraces() {
-    m_hidingLine = m_braceLine;
-    if (m_hidingLine == 0) {
-      if (m_value.starts_with('{')) m_braceLine = m_line;
-    } else if (m_value.empty() || m_value.starts_with('}')) {
-      m_braceLine = 0;
-    }
-  }
-
-  void takeValue() {
-    if (m_code == 0) {
-      finishEntity();
-      beginEntity();
-    } else if (m_kind == "SECTION" && m_code == 2) {
-      m_section = m_value;
-    } else if (m_kind == "BLOCK" && m_block != kNone) {
-      takeOfBlock();
-    } else if (m_kind == "INSERT") {
-      takeOfInsert();
-    } else if (m_kind == "POLYLINE") {
-      takeOfPolyline();
-    } else if (m_kind == "VERTEX") {
-      takeOfVertex();
-    } else if (!isDxfShape(m_kind) && m_block != kNone && m_block != kDrawing) {
-      takeOfStray();
-    }
-    if (m_code == 67 && flags() == 1 && m_block == kDrawing) m_isPaper = true;
-  }
-
-  void beginEntity() {
-    m_scope.checkStop();
-    m_kind = m_value;
-    m_begin = m_line;
-    m_name.clear();
-    m_onlyMoves = true;
-    m_isPaper = false;
-    m_hider = m_hidingLine;
-    if (m_kind != "VERTEX") finishPolyline();
-    if (m_kind == "ENDBLK" && m_block != kNone && m_hider != 0) m_blocks[m_block].hidingLine = m_hider;
-    if (m_kind == "ENDSEC") m_section.clear();
-    if (m_section == "ENTITIES") {
-      m_block = kDrawing;
-    } else if (m_section == "BLOCKS" && m_kind == "BLOCK") {
-      m_block = m_blocks.size();
-      m_blocks.emplace_back();
-    } else if (m_section != "BLOCKS" || m_kind == "ENDBLK") {
+  void takeEntity(const DxfEntity& entity) {
+    const std::string_view kind = entity.kind();
+    if (kind.empty()) return;
+    if (kind == "SECTION" && m_section.empty()) {
+      m_section = entity.text(2);
+      if (m_section == "HEADER") readHeader(entity);
+      if (m_section == "ENTITIES") m_block = 0;
+    } else if (kind == "ENDSEC") {
+      finishPolyline();
+      m_section.clear();
       m_block = kNone;
+    } else if (m_section == "BLOCKS" && kind == "BLOCK") {
+      finishPolyline();
+      m_block = m_blocks.size();
+      constexpr std::int64_t kIsElsewhere = 4 | 8;
+      m_blocks.push_back({.name = std::string(entity.text(2)),
+                          .base = entity.point(10),
+                          .isElsewhere = (entity.integer(70) & kIsElsewhere) != 0});
+    } else if (m_section == "BLOCKS" && kind == "ENDBLK") {
+      finishPolyline();
+      m_block = kNone;
+    } else if (m_block != kNone) {
+      addEntity(entity);
     }
-    if (m_kind == "POLYLINE") m_polyline = {.begin = m_begin};
   }
 
-  /// The base or the name of a block.
-  void takeOfHead(DxfBlock::Head& head) const {
-    if (m_code == 2) head.name = m_value;
-    if (m_code == 10 || m_code == 20 || m_code == 30)
-      head.base[static_cast<std::size_t>(m_code / 10 - 1)] = parseFinite(m_value).value_or(0.0);
-  }
-
-  void takeOfBlock() {
-    DxfBlock& block = m_blocks[m_block];
-    takeOfHead(block.head);
-    takeOfHead(block.ofAssimp);
-    if (m_hidingLine != 0) block.hidingLine = m_hidingLine;
-    constexpr std::int64_t kIsElsewhere = 4 | 8;
-    if (m_code == 70) block.isElsewhere = (flags() & kIsElsewhere) != 0;
-  }
-
-  void takeOfStray() {
-    DxfBlock& block = m_blocks[m_block];
-    if (block.insertLine != 0) return;
-    takeOfHead(block.ofAssimp);
-    if (isMistaken(block)) block.stray = {m_begin, m_kind};
-  }
-
-  static bool isMistaken(const DxfBlock& block) { return block.ofAssimp.name != block.head.name || isMisplaced(block); }
-
-  static bool isMisplaced(const DxfBlock& block) {
-    return !std::equal(block.head.base.begin(), block.head.base.end(), block.ofAssimp.base.begin(), isSame);
-  }
-
-  void takeOfInsert() {
-    if (m_code == 2) m_name = m_value;
-    const bool isScale = m_code >= 41 && m_code <= 43;
-    const bool isCount = m_code == 70 || m_code == 71;
-    const double number = parseFinite(m_value).value_or(0.0);
-    const bool isTurn = m_code == 50 && !isSame(std::remainder(number, 360.0), 0.0);
-    if (isTurn || (isScale && !isSame(number, 1.0)) || (isCount && number > 1.0) || isOtherAxis()) m_onlyMoves = false;
-  }
-
-  /// Whether the value says that another axis than z points up.
-  [[nodiscard]] bool isOtherAxis() const {
-    const double number = parseFinite(m_value).value_or(0.0);
-    return ((m_code == 210 || m_code == 220) && !isSame(number, 0.0)) || (m_code == 230 && !isSame(number, 1.0));
-  }
-
-  void takeOfPolyline() {
-    if (m_code == 70) m_polyline.flags = flags();
-    if (isOtherAxis()) m_polyline.isBent = true;
-  }
-
-  void takeOfVertex() {
-    if (m_code == 42 && !isSame(parseFinite(m_value).value_or(0.0), 0.0)) m_polyline.isBent = true;
-    if (m_code >= 71 && m_code <= 74 && m_value.starts_with('-') && m_polyline.hidingLine == 0)
-      m_polyline.hidingLine = m_begin;
-  }
-
-  void finishEntity() {
-    if (m_block == kNone) return;
-    DxfBlock& block = m_blocks[m_block];
-    if (m_kind == "POLYLINE") m_polyline.isPaper = m_isPaper;
-    if (m_kind == "VERTEX") ++m_polyline.vertices;
-    if (isDxfShape(m_kind) && m_kind != "VERTEX") addShape(block);
-    if (m_kind == "INSERT" && m_isPaper) ++m_paperInserts[m_name];
-    if (m_isPaper) return;
-    if (m_kind == "INSERT") addInsert(block);
-    if (isDxfSolid(m_kind)) {
-      block.note(m_begin, quotedWord(m_kind) + " is not read; export 3DFACEs");
-      block.holdsShapes = true;
+  /// Its variables are groups of the section.
+  void readHeader(const DxfEntity& header) {
+    bool isUnit = false;
+    for (const DxfGroup& group : header.groups()) {
+      std::int64_t unit = 0;
+      if (group.code == 9) isUnit = group.value == "$INSUNITS";
+      if (isUnit && group.code == 70 && parseWhole(group.value, unit) == std::errc()) m_metresPerUnit = metresOf(unit);
     }
-    if (isDxfCurve(m_kind)) ++block.curves[m_kind];
   }
 
-  void addShape(DxfBlock& block) {
-    if (m_isPaper) ++m_paper[m_kind];
-    if (m_isPaper) return;
-    block.hasShapes = block.holdsShapes = true;
-    if (m_hider != 0 && block.hidingLine == 0) block.hidingLine = m_hider;
-    block.isCut = block.isCut || block.insertLine != 0;
+  void addEntity(const DxfEntity& entity) {
+    const std::string_view kind = entity.kind();
+    if (kind == "VERTEX" && m_polyline) return m_vertices.push_back(entity);
+    finishPolyline();
+    const bool isPaper = m_block == 0 && entity.integer(67) == 1;
+    if (isPaper && !isAnnotation(kind)) ++m_paperEntities;
+    if (kind == "POLYLINE") {
+      m_polyline = entity;
+      m_isPaper = isPaper;
+    }
+    if (isPaper || kind == "POLYLINE" || isAnnotation(kind)) return;
+    if (kind == "INSERT") return addInsert(entity);
+    if (kind == "3DFACE") return addFaceEntity(entity);
+    if (kind == "SOLID" || kind == "TRACE") return addBand(entity);
+    if (kind == "LINE" || kind == "3DLINE") return addLine(entity);
+    if (kind == "POINT") return addPath(entity, {{.position = entity.requiredPoint(10)}}, false, kIdentity);
+    if (kind == "LWPOLYLINE") return addFlatPolyline(entity);
+    if (isSolid(kind)) note(entity, quotedWord(kind) + " is not read; export 3DFACEs");
+    ++block().unread[shortWord(kind)];
   }
 
-  void addInsert(DxfBlock& block) {
-    DxfBlock::Inserts& inserts = block.inserts[m_name];
-    if (inserts.line == 0) inserts.line = m_begin;
-    if (!m_onlyMoves && inserts.turnedLine == 0) inserts.turnedLine = m_begin;
-    if (m_hider != 0 && inserts.hidingLine == 0) inserts.hidingLine = m_hider;
-    if (block.insertLine == 0) block.insertLine = m_begin;
+  DxfBlock& block() { return m_blocks[m_block]; }
+
+  MeshObject& objectOf(const DxfEntity& entity) { return block().layers.of(entity.text(8, "0")); }
+
+  void note(const DxfEntity& entity, std::string problem) {
+    if (block().problemLine != 0) return;
+    block().problemLine = entity.line();
+    block().problem = std::move(problem);
   }
+
+  void addInsert(const DxfEntity& entity) {
+    const auto count = [&entity](std::int64_t code) {
+      return static_cast<std::uint64_t>(std::max<std::int64_t>(entity.integer(code, 1), 1));
+    };
+    Transform scale = kIdentity;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      scale[axis][axis] = entity.number(41 + static_cast<std::int64_t>(axis), 1.0);
+    const Transform turned = multiply(entity.plane(), turn(entity.number(50)));
+    Transform place = multiply(turned, scale);
+    const Point at = placed(entity.plane(), entity.point(10));
+    for (std::size_t axis = 0; axis < 3; ++axis) place[axis][3] = at[axis];
+    block().inserts.push_back({.block = std::string(entity.text(2)),
+                               .layer = std::string(entity.text(8, "0")),
+                               .place = place,
+                               .columns = count(70),
+                               .rows = count(71),
+                               .columnStep = placed(turned, {entity.number(44), 0.0, 0.0}),
+                               .rowStep = placed(turned, {0.0, entity.number(45), 0.0})});
+  }
+
+  /// Adds a point, a line or a face.
+  void addShape(const DxfEntity& entity, std::span<const Point> corners) {
+    MeshObject& object = objectOf(entity);
+    m_scope.takeElements(corners.size(), sizeof(Point) + sizeof(object.triangles[0]));
+    m_corners.clear();
+    for (const Point& corner : corners) {
+      m_corners.push_back(static_cast<std::uint32_t>(object.positions.size()));
+      object.positions.push_back(corner);
+    }
+    const std::string problem = addCutFace(object, m_corners, m_scope);
+    if (!problem.empty()) entity.fail(problem);
+  }
+
+  void addFaceEntity(const DxfEntity& entity) {
+    std::vector<Point> corners{entity.requiredPoint(10), entity.requiredPoint(11), entity.requiredPoint(12)};
+    if (entity.has(13)) corners.push_back(entity.point(13));
+    if (corners.back() == corners[2]) corners.resize(3);
+    addShape(entity, corners);
+  }
+
+  /// The third and the fourth corner are across from the first and the second, not behind them.
+  void addBand(const DxfEntity& entity) {
+    const Transform plane = entity.plane();
+    std::vector<Point> corners{entity.requiredPoint(10), entity.requiredPoint(11), entity.requiredPoint(12)};
+    if (entity.has(13)) corners.insert(corners.begin() + 2, entity.point(13));
+    if (corners.size() == 4 && corners[2] == corners[3]) corners.pop_back();
+    for (Point& corner : corners) corner = placed(plane, corner);
+    addShape(entity, corners);
+    const Point height = thicknessOf(entity);
+    if (height == Point{}) return;
+    for (std::size_t i = 0; i < corners.size(); ++i)
+      addSide(entity, corners[i], corners[(i + 1) % corners.size()], height);
+    for (Point& corner : corners) corner = sum(corner, height);
+    addShape(entity, corners);
+  }
+
+  void addLine(const DxfEntity& entity) {
+    addPath(entity, {{.position = entity.requiredPoint(10)}, {.position = entity.requiredPoint(11)}}, false, kIdentity);
+  }
+
+  static Point sum(const Point& a, const Point& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
+
+  /// What it is extruded by.
+  static Point thicknessOf(const DxfEntity& entity) {
+    const double thickness = entity.number(39);
+    return thickness == 0.0 ? Point{} : placed(entity.plane(), {0.0, 0.0, thickness});
+  }
+
+  void addSide(const DxfEntity& entity, const Point& a, const Point& b, const Point& height) {
+    addShape(entity, std::array{a, b, sum(b, height), sum(a, height)});
+  }
+
+  /// The pieces between positions, extruded where the entity has a thickness.
+  void addPath(const DxfEntity& entity, const std::vector<Vertex>& path, bool isClosed, const Transform& plane) {
+    const Point height = thicknessOf(entity);
+    const std::size_t pieces = path.size() == 1 ? 1 : path.size() - (isClosed || path.empty() ? 0 : 1);
+    for (std::size_t i = 0; i < pieces; ++i) {
+      const Vertex& vertex = path[i];
+      if (vertex.isWide) ++block().unread["widths of " + std::string(entity.kind())];
+      if (vertex.bulge != 0.0) {
+        ++block().unread["arcs of " + std::string(entity.kind())];
+        continue;
+      }
+      const Point a = placed(plane, vertex.position);
+      const Point b = placed(plane, path[(i + 1) % path.size()].position);
+      if (path.size() == 1) {
+        addPoint(entity, a, height);
+      } else if (height == Point{}) {
+        addShape(entity, std::array{a, b});
+      } else {
+        addSide(entity, a, b, height);
+      }
+    }
+  }
+
+  void addPoint(const DxfEntity& entity, const Point& point, const Point& height) {
+    if (height == Point{}) return addShape(entity, std::array<Point, 1>{point});
+    addShape(entity, std::array{point, sum(point, height)});
+  }
+
+  void addFlatPolyline(const DxfEntity& entity) {
+    std::vector<Vertex> path;
+    const bool isWide = entity.number(43) != 0.0;
+    for (const DxfGroup& group : entity.groups()) {
+      if (group.code == 10)
+        path.push_back({.position = {entity.numberOf(group), 0.0, entity.number(38)}, .isWide = isWide});
+      if (path.empty()) continue;
+      Vertex& vertex = path.back();
+      if (group.code == 20) vertex.position[1] = entity.numberOf(group);
+      if (group.code == 42) vertex.bulge = entity.numberOf(group);
+      if (group.code == 40 || group.code == 41) vertex.isWide = vertex.isWide || entity.numberOf(group) != 0.0;
+    }
+    addPath(entity, path, (entity.integer(70) & kIsClosed) != 0, entity.plane());
+  }
+
+  // What a polyline is, and of what kinds its vertices are.
+  static constexpr std::int64_t kIsClosed = 1;
+  static constexpr std::int64_t kIsSmoothed = 4;
+  static constexpr std::int64_t kIsInSpace = 8;
+  static constexpr std::int64_t kIsMesh = 16;
+  static constexpr std::int64_t kIsClosedAcross = 32;
+  static constexpr std::int64_t kIsPolyface = 64;
+  static constexpr std::int64_t kIsControlPoint = 16;
+  static constexpr std::int64_t kIsPosition = 64;
 
   void finishPolyline() {
-    const Polyline line = std::exchange(m_polyline, {});
-    if (line.begin == 0 || line.isPaper || m_block == kNone) return;
-    constexpr std::int64_t kIsPolyface = 64;
-    constexpr std::int64_t kAreStraight = 1 | 8 | 128;  // closed, in space, and how it is dashed
-    const bool isLine = line.vertices == 2 && !line.isBent && (line.flags & ~kAreStraight) == 0;
-    DxfBlock& block = m_blocks[m_block];
-    if ((line.flags & kIsPolyface) == 0 && !isLine)
-      block.note(line.begin, "a POLYLINE that is no polyface mesh is not read; export LINEs");
-    if (line.hidingLine != 0)
-      block.note(line.hidingLine, "a POLYLINE that hides edges of its faces is not read; export 3DFACEs");
+    if (!m_polyline) return;
+    const DxfEntity polyline = *std::exchange(m_polyline, std::nullopt);
+    const std::vector<DxfEntity> vertices = std::exchange(m_vertices, {});
+    if (m_isPaper) return;
+    const std::int64_t flags = polyline.integer(70);
+    if ((flags & kIsPolyface) != 0) return addPolyface(polyline, vertices);
+    std::vector<Vertex> path;
+    const bool isFlat = (flags & (kIsInSpace | kIsMesh)) == 0;
+    const bool isWide = isFlat && (polyline.number(40) != 0.0 || polyline.number(41) != 0.0);
+    for (const DxfEntity& vertex : vertices) {
+      if ((vertex.integer(70) & kIsControlPoint) != 0) continue;
+      path.push_back({.position = vertex.point(10)});
+      if (!isFlat) continue;
+      if (polyline.has(30)) path.back().position[2] = polyline.number(30);  // the elevation of all
+      path.back().bulge = vertex.number(42);
+      path.back().isWide =
+          vertex.has(40) || vertex.has(41) ? vertex.number(40) != 0.0 || vertex.number(41) != 0.0 : isWide;
+    }
+    if ((flags & kIsMesh) != 0) return addMesh(polyline, path, flags);
+    addPath(polyline, path, (flags & kIsClosed) != 0, isFlat ? polyline.plane() : kIdentity);
   }
 
-  void findBlocks() {
-    for (std::size_t i = kDrawing + 1; i < m_blocks.size(); ++i) {
-      m_byName[m_blocks[i].head.name] = i;
-      m_byAnyCase[lowerCase(m_blocks[i].head.name)] = i;
-      m_byNameOfAssimp[m_blocks[i].ofAssimp.name] = i;
+  /// Positions in rows, with a face between any four that are beside each other.
+  void addMesh(const DxfEntity& mesh, const std::vector<Vertex>& positions, std::int64_t flags) {
+    const bool isSmoothed = (flags & kIsSmoothed) != 0;
+    const std::int64_t rows = mesh.integer(isSmoothed ? 73 : 71);
+    const std::int64_t columns = mesh.integer(isSmoothed ? 74 : 72);
+    const auto size = static_cast<std::int64_t>(positions.size());
+    if (rows < 1 || columns < 1 || size % rows != 0 || size / rows != columns)
+      mesh.fail("a POLYLINE of " + std::to_string(rows) + " x " + std::to_string(columns) + " vertices has " +
+                std::to_string(size));
+    const std::int64_t pieces = (flags & kIsClosed) != 0 ? rows : rows - 1;
+    const std::int64_t piecesAcross = (flags & kIsClosedAcross) != 0 ? columns : columns - 1;
+    const auto at = [&](std::int64_t row, std::int64_t column) {
+      return positions[static_cast<std::size_t>(row % rows * columns + column % columns)].position;
+    };
+    for (std::int64_t row = 0; row < pieces; ++row) {
+      for (std::int64_t column = 0; column < piecesAcross; ++column)
+        addShape(mesh, std::array{at(row, column), at(row, column + 1), at(row + 1, column + 1), at(row + 1, column)});
     }
   }
 
-  static std::size_t placeIn(const std::map<std::string, std::size_t>& places, const std::string& name) {
-    const auto found = places.find(name);
-    return found == places.end() ? kNone : found->second;
-  }
-
-  /// Names are the same in upper and in lower case, but where a file has both.
-  [[nodiscard]] std::size_t blockNamed(const std::string& name) const {
-    const std::size_t exact = placeIn(m_byName, name);
-    return exact != kNone ? exact : placeIn(m_byAnyCase, lowerCase(name));
-  }
-
-  /// From blocks to those that they are in.
-  void propagateShapes() {
-    std::vector<std::vector<std::size_t>> users(m_blocks.size());
-    std::vector<std::size_t> waiting;
-    for (std::size_t i = 0; i < m_blocks.size(); ++i) {
-      for (const auto& [name, inserts] : m_blocks[i].inserts) {
-        const std::size_t block = blockNamed(name);
-        if (block != kNone) users[block].push_back(i);
+  /// Positions, and faces that name up to four of them by numbers from 1 on, negative before an edge that is hidden.
+  void addPolyface(const DxfEntity& polyface, const std::vector<DxfEntity>& vertices) {
+    std::vector<Point> positions;
+    for (const DxfEntity& vertex : vertices) {
+      if (!isFace(vertex)) positions.push_back(vertex.point(10));
+    }
+    std::vector<Point> corners;
+    for (const DxfEntity& face : vertices) {
+      if (!isFace(face)) continue;
+      corners.clear();
+      for (std::int64_t code = 71; code <= 74 && face.integer(code) != 0; ++code) {
+        const std::int64_t number = face.integer(code);
+        const auto size = static_cast<std::int64_t>(positions.size());
+        if (number > size || number < -size)
+          face.fail("index " + std::to_string(number) + " names no vertex: the POLYLINE has " + std::to_string(size));
+        corners.push_back(positions[static_cast<std::size_t>(std::abs(number) - 1)]);
       }
-      if (m_blocks[i].holdsShapes) waiting.push_back(i);
-    }
-    while (!waiting.empty()) {
-      const std::size_t block = waiting.back();
-      waiting.pop_back();
-      for (const std::size_t user : users[block]) {
-        if (!std::exchange(m_blocks[user].holdsShapes, true)) waiting.push_back(user);
-      }
+      if (!corners.empty()) addShape(face.has(8) ? face : polyface, corners);
     }
   }
 
-  /// Those of the drawing itself.
-  void checkInserts() const {
-    for (const auto& [name, inserts] : m_blocks[kDrawing].inserts) {
-      const std::size_t place = blockNamed(name);
-      const std::size_t taken = placeIn(m_byNameOfAssimp, name);
-      const bool hasTaken = taken != kNone && m_blocks[taken].hasShapes;
-      if (place != kNone && m_blocks[place].holdsShapes) checkInsert(m_blocks[place], inserts);
-      if (taken == place || !(hasTaken || (place != kNone && m_blocks[place].hasShapes))) continue;
-      if (hasTaken) failOfStray(m_blocks[taken]);
-      if (m_blocks[place].stray.first != 0) failOfStray(m_blocks[place]);
-      fail(inserts.line, "the block " + quotedWord(m_blocks[place].head.name) + " is not read where it is called " +
-                             quotedWord(name));
-    }
-  }
-
-  void checkInsert(const DxfBlock& block, const DxfBlock::Inserts& inserts) const {
-    for (const std::size_t line : {inserts.hidingLine, block.hidingLine}) {
-      if (line != 0) failOfHiding(line);
-    }
-    if (inserts.turnedLine != 0)
-      fail(inserts.turnedLine, "an INSERT that turns, scales or repeats its block is not read; explode it");
-    const bool isNested = std::any_of(block.inserts.begin(), block.inserts.end(), [this](const auto& nested) {
-      const std::size_t place = blockNamed(nested.first);
-      return place != kNone && m_blocks[place].holdsShapes;
-    });
-    if (isNested || block.isCut) fail(block.insertLine, "a block within a block is not read; explode it");
-    if (block.hasShapes && isMisplaced(block)) failOfStray(block);
-  }
-
-  [[noreturn]] void failOfHiding(std::size_t line) const {
-    fail(line, "what follows a text that begins with '{' is not read; remove it");
-  }
-
-  [[noreturn]] void failOfStray(const DxfBlock& block) const {
-    fail(block.stray.first, "a block of faces or lines in which there is " + quotedWord(block.stray.second) +
-                                " too is not read; explode it");
-  }
-
-  /// What is in the drawing, and in its blocks.
-  void lookAtShown() {
-    std::vector<bool> isShown(m_blocks.size());
-    std::vector<std::size_t> waiting{kDrawing};
-    isShown[kDrawing] = true;
-    while (!waiting.empty()) {
-      const DxfBlock& block = m_blocks[waiting.back()];
-      waiting.pop_back();
-      if (block.problem.first != 0) fail(block.problem.first, block.problem.second);
-      for (const auto& [kind, count] : block.curves) m_curves[kind] += count;
-      if (block.isElsewhere && !block.holdsShapes) m_elsewhere.push_back(block.head.name);
-      for (const auto& [name, inserts] : block.inserts) {
-        const std::size_t inner = blockNamed(name);
-        if (inner == kNone || isShown[inner]) continue;
-        isShown[inner] = true;
-        waiting.push_back(inner);
-      }
-    }
-  }
-
-  void countPaperInserts() {
-    for (const auto& [name, count] : m_paperInserts) {
-      const std::size_t block = placeIn(m_byNameOfAssimp, name);
-      if (block != kNone && m_blocks[block].hasShapes) m_paper["INSERT"] += count;
-    }
-  }
-
-  void warn(std::vector<FileWarning>& warnings) const {
-    const std::size_t curves = totalOf(m_curves);
-    const std::size_t paper = totalOf(m_paper);
-    if (curves != 0)
-      warnings.push_back({"shapes", fmt::format("{} of kinds that are not read {} missing: {}", curves,
-                                                curves == 1 ? "is" : "are", kindsOf(m_curves))});
-    if (!m_elsewhere.empty())
-      warnings.push_back({"shapes", "blocks of other drawings are not read, and missing: " + firstOf(m_elsewhere)});
-    if (paper != 0)
-      warnings.push_back({"shapes", fmt::format("{} of the paper space {} read as if in the model: {}", paper,
-                                                paper == 1 ? "is" : "are", kindsOf(m_paper))});
-  }
-
-  [[nodiscard]] std::int64_t flags() const {
-    std::int64_t value = 0;
-    return parseWhole(m_value, value) == std::errc() ? value : 0;
-  }
-
-  [[noreturn]] void fail(std::size_t line, const std::string& problem) const { throw FileError(m_path, problem, line); }
-
-  struct Polyline {
-    std::size_t begin = 0;  ///< Its line; 0 where there is none.
-    std::int64_t flags = 0;
-    bool isPaper = false;
-    bool isBent = false;  ///< It has arcs, or lies in a plane of its own.
-    std::size_t vertices = 0;
-    std::size_t hidingLine = 0;  ///< Of the first vertex that hides an edge.
-  };
+  static bool isFace(const DxfEntity& vertex) { return vertex.has(71) && (vertex.integer(70) & kIsPosition) == 0; }
 
   std::string_view m_rest;
   const Path& m_path;
-  const ReadScope& m_scope;
+  ReadScope& m_scope;
   std::size_t m_line = 0;
-  std::int64_t m_code = 0;
-  std::string_view m_value;
   std::string m_section;
-  std::size_t m_block = kNone;   ///< That is being read.
-  std::string m_kind;            ///< Of the entity that is being read.
-  std::size_t m_begin = 0;       ///< Its line.
-  std::string m_name;            ///< Of the block that it inserts.
-  bool m_onlyMoves = true;       ///< It moves that block, and does nothing else to it.
-  bool m_isPaper = false;        ///< It is no part of the model.
-  std::size_t m_hider = 0;       ///< The line of the text that hides its begin; 0 where none does.
-  std::size_t m_hidingLine = 0;  ///< The same of the value that is being read.
-  std::size_t m_braceLine = 0;   ///< The line of the text that hides what comes next.
-  Polyline m_polyline;
-  std::vector<DxfBlock> m_blocks{1};
-  std::map<std::string, std::size_t> m_byName;
-  std::map<std::string, std::size_t> m_byAnyCase;
-  std::map<std::string, std::size_t> m_byNameOfAssimp;
-  KindCounts m_curves;
-  KindCounts m_paper;  ///< Of shapes.
-  KindCounts m_paperInserts;
-  std::vector<std::string> m_elsewhere;
+  std::vector<DxfBlock> m_blocks{1};  ///< The first is the drawing itself.
+  std::size_t m_block = kNone;        ///< That is being read.
+  std::optional<DxfEntity> m_polyline;
+  std::vector<DxfEntity> m_vertices;  ///< Of the polyline.
+  bool m_isPaper = false;             ///< So is the polyline.
+  std::size_t m_paperEntities = 0;
+  double m_metresPerUnit = 0.0;
+  std::vector<std::uint32_t> m_corners;
 };
 
 }  // namespace
 
-void checkDxf(const Path& path, const ReadScope& scope, std::vector<FileWarning>& warnings) {
+std::vector<MeshObject> readDxfObjects(const Path& path, ReadScope& scope, FileNotes& notes) {
   std::string text = readText(path, scope.stop());
+  if (text.starts_with("AutoCAD Binary DXF"))
+    throw FileError(path, "is a binary DXF, which is not read: save it as text");
   makeLines(text);
-  DxfCheck(text, path, scope).run(warnings);
+  DxfReader reader(text, path, scope);
+  reader.read();
+  notes.frame = {.up = 3, .metresPerUnit = reader.metresPerUnit()};
+  const std::size_t paper = reader.paperEntities();
+  if (paper != 0) notes.passedOver.push_back(fmt::format("its paper space, of {} entities, is passed over", paper));
+  return showDrawing(reader.blocks(), path, scope, notes.warnings);
 }
 
 }  // namespace allpairs::scene

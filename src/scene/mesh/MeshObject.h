@@ -49,6 +49,13 @@ struct FileWarning {
   std::string reason;
 };
 
+/// What a reader says of a file besides its objects.
+struct FileNotes {
+  MeshFrame frame;
+  std::vector<std::string> passedOver;  ///< For remarks.
+  std::vector<FileWarning> warnings;
+};
+
 /// Reads a Wavefront file in double, with the names exactly as they stand there: an object for each "o", or for each
 /// "g" where there is no "o". A file of nothing but positions is one object of points.
 ///
@@ -74,22 +81,32 @@ struct FileWarning {
 
 /// Reads a glTF 2.0 file, as JSON or GLB: an object for each node of its scene that shows a mesh, with the node's
 /// transform applied in double. Skins and morph targets are passed over, with a remark of the object; animations and
-/// other scenes too, of which `passedOver` says what remarks say.
+/// other scenes too, with a note.
 ///
 /// Bad input: throws FileError; so do a node with two parents and a mesh that is compressed.
 [[nodiscard]] std::vector<MeshObject> readGltfObjects(const std::filesystem::path& path, ReadScope& scope,
-                                                      std::vector<std::string>& passedOver);
+                                                      FileNotes& notes);
+
+/// Reads a drawing as text (DXF) in double: an object for each layer, of the lines, polylines, faces, polyface and
+/// polygon meshes, solids, traces and points of the model space, with the blocks in their places. What a block has in
+/// layer 0 is in the layer in which it is inserted. Arcs and other curves are missing, with a warning, as are blocks of
+/// other drawings; the paper space is passed over, with a note. Texts, dimensions and pictures are no shapes.
+///
+/// Bad input: throws FileError with its line; so do binary files, and solids, surfaces and meshes of other kinds.
+/// Reference: AutoCAD 2012 DXF Reference, "ENTITIES Section" and "BLOCKS Section".
+[[nodiscard]] std::vector<MeshObject> readDxfObjects(const std::filesystem::path& path, ReadScope& scope,
+                                                     FileNotes& notes);
 
 /// Reads what else Assimp reads: an object for each node that shows a mesh, with the node's transform applied in double
 /// to positions that Assimp gives as float32. Coordinates are those of the file: what Assimp does to turn y up and to
-/// measure in metres, as for IFC, is undone, and `frame` says which axis is up in the file and how long its unit is.
-/// `warnings` says which shapes of an IFC, an X3D or a DXF Assimp does not read, what of an IFC or a DXF it puts
-/// elsewhere, and how coordinates far from the origin are rounded.
+/// measure in metres, as for IFC, is undone, and the notes say which axis is up in the file and how long its unit is.
+/// Warnings say which shapes of an IFC or an X3D Assimp does not read, what of an IFC it puts elsewhere, and how
+/// coordinates far from the origin are rounded.
 ///
 /// Bad input: throws FileError. Assimp runs in a process of its own: a file that makes it fail, or loop, or take all
 ///            memory, fails, loops and takes it there.
 [[nodiscard]] std::vector<MeshObject> readAssimpObjects(const std::filesystem::path& path, ReadScope& scope,
-                                                        MeshFrame& frame, std::vector<FileWarning>& warnings);
+                                                        FileNotes& notes);
 
 /// Whether a file is of CAD's exact surfaces, by its extension, and what to say of it then.
 [[nodiscard]] bool isCadFile(const std::filesystem::path& path);

@@ -21,6 +21,7 @@
 #include "input/ModelNames.h"
 #include "input/SceneFrame.h"
 #include "input/UniqueNames.h"
+#include "input/Words.h"
 #include "mesh/MeshObject.h"
 
 namespace allpairs::scene {
@@ -31,13 +32,6 @@ namespace fs = std::filesystem;
 /// Of a folder that has other files to read; the other commands do not take it.
 constexpr const char* kPartialHint = "; --partial of detect, info, view and report leaves it out";
 
-/// What readers say of a file besides its objects.
-struct FileNotes {
-  MeshFrame frame;
-  std::vector<std::string> passedOver;  ///< For remarks.
-  std::vector<FileWarning> warnings;
-};
-
 std::vector<MeshObject> readObjects(const fs::path& path, ReadScope& scope, FileNotes& notes) {
   scope.admit(path);
   std::error_code ignored;
@@ -47,11 +41,9 @@ std::vector<MeshObject> readObjects(const fs::path& path, ReadScope& scope, File
   if (extension == ".ply") return readPlyObjects(path, scope);
   if (extension == ".stl") return readStlObjects(path, scope);
   if (extension == ".off") return readOffObjects(path, scope);
-  if (extension != ".gltf" && extension != ".glb") {
-    return readAssimpObjects(path, scope, notes.frame, notes.warnings);
-  }
-  notes.frame = {.up = 2, .metresPerUnit = 1.0};  // as its specification has it
-  return readGltfObjects(path, scope, notes.passedOver);
+  if (extension == ".dxf") return readDxfObjects(path, scope, notes);
+  if (extension == ".gltf" || extension == ".glb") return readGltfObjects(path, scope, notes);
+  return readAssimpObjects(path, scope, notes);
 }
 
 /// The models of an object's triangles, its lines and its points, where it has any.
@@ -256,7 +248,7 @@ void readInto(Scene& scene, const fs::path& path, ReadScope& scope) {
 bool isMeshFile(const fs::path& path) {
   if (isSceneFile(path) || isBoxArrayFile(path)) return false;
   const std::string extension = lowerExtension(path);
-  return extension == ".obj" || extension == ".ply" || isAssimpFile(path);
+  return isOneOf(extension, {".dxf", ".obj", ".ply"}) || isAssimpFile(path);
 }
 
 Scene readMesh(const fs::path& path, const ReadOptions& options) {

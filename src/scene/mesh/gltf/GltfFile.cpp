@@ -267,16 +267,16 @@ class GltfNodeReader {
 
 }  // namespace
 
-std::vector<MeshObject> readGltfObjects(const std::filesystem::path& path, ReadScope& scope,
-                                        std::vector<std::string>& passedOver) {
+std::vector<MeshObject> readGltfObjects(const std::filesystem::path& path, ReadScope& scope, FileNotes& notes) {
   GltfDocument document(path, scope);
   auto objects = GltfNodeReader(document).read();
+  notes.frame = {.up = 2, .metresPerUnit = 1.0};  // as its specification has it
   if (document.size("animations") != 0)
-    passedOver.emplace_back("its animations are passed over: nodes are where they are without them");
+    notes.passedOver.emplace_back("its animations are passed over: nodes are where they are without them");
   if (const std::size_t scenes = document.size("scenes"); scenes > 1) {
     const bool isNamed = document.root().contains("scene");
-    passedOver.push_back(fmt::format("{} of its {} scenes {} passed over: only {} is read", scenes - 1, scenes,
-                                     scenes == 2 ? "is" : "are", isNamed ? "the one to be shown" : "the first"));
+    notes.passedOver.push_back(fmt::format("{} of its {} scenes {} passed over: only {} is read", scenes - 1, scenes,
+                                           scenes == 2 ? "is" : "are", isNamed ? "the one to be shown" : "the first"));
   }
   return objects;
 }
