@@ -64,7 +64,7 @@ Scene readInput(const std::filesystem::path& path, const ReadOptions& options) {
   if (extension == ".pscn" || extension == ".php")
     throw FileError(path,
                     "is a SOFA scene in PHP, which is a program: read what it prints, `php -f SCENE.pscn > SCENE.scn`");
-  if (isCadFile(path)) throw FileError(path, kIsCad);
+  if (const std::string_view reason = whyNotRead(path); !reason.empty()) throw FileError(path, std::string(reason));
   throw FileError(path, "is of no kind that is known: .scn or .xml for scenes, .npy or .csv for boxes, or a mesh");
 }
 

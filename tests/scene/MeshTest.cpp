@@ -223,6 +223,12 @@ TEST(Mesh, FoldersWithinAFolderAndCadFilesAreNamedWhereThereIsNothingElse) {
   expectFileError([&] { (void)scene::readInput(cad); }, "has the exact surfaces of a CAD program, which are not read");
   for (const char* name : {"a.prt", "a.SAT", "a.jt", "a.3dm", "a.f3d", "a.FCStd"})
     expectFileError([path = folder.write(name, "x")] { (void)scene::readInput(path); }, "has the exact surfaces of a");
+  for (const char* name : {"a.vtk", "a.VTU", "a.msh"})
+    expectFileError([path = folder.write(name, "x")] { (void)scene::readInput(path); },
+                    "is of a format that is read only where a scene names it: export another mesh");
+  for (const char* name : {"a.usdz", "a.wrl", "a.skp"})
+    expectFileError([path = folder.write(name, "x")] { (void)scene::readInput(path); },
+                    "is of a format that is not read: export a mesh");
 }
 
 TEST(MeshFolder, NothingStaysOfAFileThatIsLeftOutMidway) {
@@ -277,6 +283,19 @@ TEST(MeshFolder, ACadFileIsAnErrorUnlessPartialOrThereAsAMeshToo) {
   EXPECT_EQ(whole.models.size(), 2U);
   ASSERT_EQ(whole.remarks.size(), 1U);
   EXPECT_FALSE(whole.remarks[0].isPartial);
+}
+
+TEST(MeshFolder, AMeshOfAFormatThatIsNotReadIsAnErrorUnlessPartial) {
+  for (const char* name : {"skin.vtk", "skin.usdz"}) {
+    const TempFolder folder;
+    folder.write("cube.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    folder.write(name, "x");
+    expectFileError([&] { (void)scene::readInput(folder.path()); },
+                    "; --partial of detect, info, view and report leaves it out");
+    const scene::Scene partial = scene::readInput(folder.path(), {.partial = true});
+    ASSERT_EQ(partial.remarks.size(), 1U);
+    EXPECT_TRUE(partial.remarks[0].isPartial);
+  }
 }
 
 TEST(MeshFolder, WhatMacOsKeepsBesideAFileIsNoMesh) {

@@ -7,6 +7,7 @@
 #include <assimp/Importer.hpp>
 #include <cstring>
 #include <limits>
+#include <map>
 #include <memory>
 #include <new>
 #include <optional>
@@ -446,16 +447,32 @@ std::string importInChild(const Path& path, ReadScope& scope) {
 
 }  // namespace
 
-bool isCadFile(const Path& path) {
-  static const std::set<std::string_view> kExtensions{
-      ".step",       ".stp", ".iges", ".igs", ".brep", ".sldprt", ".sldasm", ".x_t", ".x_b", ".catpart",
-      ".catproduct", ".ipt", ".iam",  ".prt", ".sat",  ".sab",    ".jt",     ".3dm", ".f3d", ".fcstd"};
-  return kExtensions.contains(lowerExtension(path));
+std::string_view whyNotRead(const Path& path) {
+  static constexpr std::string_view kOfCad =
+      "has the exact surfaces of a CAD program, which are not read: export a mesh, such as glTF, STL or OBJ";
+  static constexpr std::string_view kOfScenes =
+      "is of a format that is read only where a scene names it: export another mesh, such as glTF, STL or OBJ";
+  static constexpr std::string_view kOfOthers =
+      "is of a format that is not read: export a mesh, such as glTF, STL or OBJ";
+  static const std::map<std::string_view, std::string_view> kReasons = [] {
+    std::map<std::string_view, std::string_view> reasons;
+    for (const char* extension : {".step", ".stp",     ".iges",       ".igs", ".brep", ".sldprt", ".sldasm", ".x_t",
+                                  ".x_b",  ".catpart", ".ipt",        ".iam", ".prt",  ".sat",    ".sab",    ".jt",
+                                  ".3dm",  ".f3d",     ".catproduct", ".par", ".psm",  ".dwg",    ".fcstd"})
+      reasons[extension] = kOfCad;
+    for (const char* extension : {".vtk", ".vtu", ".msh"}) reasons[extension] = kOfScenes;
+    for (const char* extension : {".usd", ".usda", ".usdc", ".usdz", ".vtp", ".vts", ".vtm", ".wrl", ".abc", ".skp",
+                                  ".rvt", ".dgn", ".nwd", ".max", ".c4d", ".ma", ".mb"})
+      reasons[extension] = kOfOthers;
+    return reasons;
+  }();
+  const auto found = kReasons.find(lowerExtension(path));
+  return found == kReasons.end() ? std::string_view() : found->second;
 }
 
 bool isAssimpFile(const Path& path) {
   const std::string extension = lowerExtension(path);
-  return !extension.empty() && !isCadFile(path) && Assimp::Importer().IsExtensionSupported(extension.c_str());
+  return !extension.empty() && whyNotRead(path).empty() && Assimp::Importer().IsExtensionSupported(extension.c_str());
 }
 
 std::vector<MeshObject> readAssimpObjects(const Path& path, ReadScope& scope, FileNotes& notes) {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "input/ReadScope.h"
@@ -108,10 +109,9 @@ struct FileNotes {
 [[nodiscard]] std::vector<MeshObject> readAssimpObjects(const std::filesystem::path& path, ReadScope& scope,
                                                         FileNotes& notes);
 
-/// Whether a file is of CAD's exact surfaces, by its extension, and what to say of it then.
-[[nodiscard]] bool isCadFile(const std::filesystem::path& path);
-inline constexpr const char* kIsCad =
-    "has the exact surfaces of a CAD program, which are not read: export a mesh, such as glTF, STL or OBJ";
+/// Why a file is not read that by its extension has shapes, such as one of a CAD program's exact surfaces; empty for
+/// others.
+[[nodiscard]] std::string_view whyNotRead(const std::filesystem::path& path);
 
 /// Whether Assimp knows files of this extension, and reads shapes from them.
 [[nodiscard]] bool isAssimpFile(const std::filesystem::path& path);

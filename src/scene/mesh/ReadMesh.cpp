@@ -121,29 +121,29 @@ class MeshSearch {
   void look(const fs::path& folder) {
     checkStop(m_options.stop);
     const std::size_t before = m_meshes.size();
-    std::vector<fs::path> cadFiles;
-    for (const fs::path& entry : sortedEntries(folder)) take(entry, cadFiles);
+    std::vector<fs::path> unread;
+    for (const fs::path& entry : sortedEntries(folder)) take(entry, unread);
     std::set<fs::path> meshes;  // without their extensions
-    for (std::size_t i = before; i < m_meshes.size() && !cadFiles.empty(); ++i)
+    for (std::size_t i = before; i < m_meshes.size() && !unread.empty(); ++i)
       meshes.insert(fs::path(m_meshes[i]).replace_extension());
-    for (const fs::path& file : cadFiles) takeCad(file, meshes.contains(fs::path(file).replace_extension()));
+    for (const fs::path& file : unread) takeUnread(file, meshes.contains(fs::path(file).replace_extension()));
   }
 
   [[nodiscard]] const std::vector<fs::path>& meshes() const { return m_meshes; }
   [[nodiscard]] bool hasPassedOverFolders() const { return m_hasPassedOverFolders; }
 
  private:
-  /// Takes meshes, looks into folders, remarks on the rest, and lists CAD files.
-  void take(const fs::path& entry, std::vector<fs::path>& cadFiles) {
+  /// Takes meshes, looks into folders, remarks on the rest, and lists those of formats that are not read.
+  void take(const fs::path& entry, std::vector<fs::path>& unread) {
     if (!canBeLookedAt(entry)) return;
     std::error_code ignored;
     const bool isSpecial = fs::exists(entry, ignored) && !fs::is_regular_file(entry, ignored);
     if (fs::is_directory(entry, ignored)) {
       takeFolder(entry);
-    } else if (!isSpecial && (isMeshFile(entry) || isCadFile(entry)) && isAppleDouble(entry)) {
+    } else if (!isSpecial && (isMeshFile(entry) || !whyNotRead(entry).empty()) && isAppleDouble(entry)) {
       remarkOn(entry, "is what macOS keeps of a file's properties, no mesh");
-    } else if (!isSpecial && isCadFile(entry)) {
-      cadFiles.push_back(entry);
+    } else if (!isSpecial && !whyNotRead(entry).empty()) {
+      unread.push_back(entry);
     } else if (isSpecial || !isMeshFile(entry)) {
       remarkOn(entry, isSpecial ? "is not a regular file" : "is no mesh file by its extension");
     } else {
@@ -162,11 +162,12 @@ class MeshSearch {
     return false;
   }
 
-  /// CAD files cannot be read. Where the part is not there as a mesh too, its clashes would be missing without a warning.
-  void takeCad(const fs::path& entry, bool isThereAsMesh) {
-    if (isThereAsMesh) return remarkOn(entry, "is a CAD file beside a mesh of the same name, which is taken");
-    if (!m_options.partial) throw FileError(entry, kIsCad + std::string(m_meshes.empty() ? "" : kPartialHint));
-    m_remarks.push_back(remarkOfMissing(entry, FileError(entry, kIsCad)));
+  /// Where the part is not there as a mesh too, its clashes would be missing without a warning.
+  void takeUnread(const fs::path& entry, bool isThereAsMesh) {
+    const std::string reason(whyNotRead(entry));
+    if (isThereAsMesh) return remarkOn(entry, "is not read; a mesh of the same name beside it is");
+    if (!m_options.partial) throw FileError(entry, reason + (m_meshes.empty() ? "" : kPartialHint));
+    m_remarks.push_back(remarkOfMissing(entry, FileError(entry, reason)));
   }
 
   /// A link may lead back to a folder above it, or to one that is searched anyway.
