@@ -121,6 +121,14 @@ template <class Number = double>
   return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
+/// The first of some names, in quotes, and how many others there are.
+[[nodiscard]] inline std::string firstOf(const std::vector<std::string>& names) {
+  constexpr std::size_t kNamed = 5;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(names.size(), kNamed); ++i) text += (i == 0 ? "'" : ", '") + names[i] + '\'';
+  return names.size() > kNamed ? text + " and " + std::to_string(names.size() - kNamed) + " more" : text;
+}
+
 /// All words of a text in which lines mean nothing. A stream would end early where there is no memory for one.
 [[nodiscard]] inline std::vector<std::string> allWords(std::string_view text) {
   std::vector<std::string> words;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "mesh/AssimpFrame.h"
+#include "mesh/assimp/AssimpFrame.h"
 
 #include <assimp/scene.h>
 

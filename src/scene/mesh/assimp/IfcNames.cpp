@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "mesh/IfcNames.h"
+#include "mesh/assimp/IfcNames.h"
 
 #include <algorithm>
 #include <charconv>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "mesh/DxfEntity.h"
+#include "mesh/dxf/DxfEntity.h"
 
 #include <algorithm>
 #include <cmath>

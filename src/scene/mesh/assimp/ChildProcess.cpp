@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "mesh/ChildProcess.h"
+#include "mesh/assimp/ChildProcess.h"
 
 #include <fcntl.h>
 #include <poll.h>

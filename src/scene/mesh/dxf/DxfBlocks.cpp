@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "mesh/DxfBlocks.h"
+#include "mesh/dxf/DxfBlocks.h"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,6 @@
 
 #include "allpairs/scene/FileError.h"
 #include "input/Words.h"
-#include "mesh/AssimpWarnings.h"
 
 namespace allpairs::scene {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "mesh/X3dNodes.h"
+#include "mesh/assimp/X3dNodes.h"
 
 #include <new>
 #include <pugixml.hpp>

@@ -17,9 +17,9 @@
 #include "allpairs/scene/FileError.h"
 #include "input/FileBytes.h"
 #include "input/Words.h"
-#include "mesh/DxfBlocks.h"
-#include "mesh/DxfEntity.h"
 #include "mesh/Faces.h"
+#include "mesh/dxf/DxfBlocks.h"
+#include "mesh/dxf/DxfEntity.h"
 
 namespace allpairs::scene {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "mesh/AssimpWarnings.h"
+#include "mesh/assimp/AssimpWarnings.h"
 
 #include <fmt/format.h>
 
@@ -9,17 +9,10 @@
 #include <utility>
 
 #include "input/FileBytes.h"
-#include "mesh/IfcNames.h"
+#include "input/Words.h"
+#include "mesh/assimp/IfcNames.h"
 
 namespace allpairs::scene {
-
-std::string firstOf(const std::vector<std::string>& names) {
-  constexpr std::size_t kNamed = 5;
-  std::string text;
-  for (std::size_t i = 0; i < std::min(names.size(), kNamed); ++i) text += (i == 0 ? "'" : ", '") + names[i] + '\'';
-  if (names.size() > kNamed) text += fmt::format(" and {} more", names.size() - kNamed);
-  return text;
-}
 
 std::string notRead(const std::set<std::string>& kinds) {
   return fmt::format("{} {} not read", fmt::join(kinds, ", "), kinds.size() == 1 ? "is" : "are");

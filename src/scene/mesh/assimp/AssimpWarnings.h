@@ -10,9 +10,6 @@
 
 namespace allpairs::scene {
 
-/// The first of some names, in quotes, and how many others there are.
-[[nodiscard]] std::string firstOf(const std::vector<std::string>& names);
-
 /// Some kinds of shapes, as a sentence: "IfcCsgSolid is not read".
 [[nodiscard]] std::string notRead(const std::set<std::string>& kinds);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "mesh/AssimpLog.h"
+#include "mesh/assimp/AssimpLog.h"
 
 #include <algorithm>
 #include <array>

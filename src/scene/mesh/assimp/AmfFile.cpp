@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "mesh/AmfFile.h"
+#include "mesh/assimp/AmfFile.h"
 
 #include <algorithm>
 #include <array>
