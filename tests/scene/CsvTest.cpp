@@ -5,7 +5,9 @@
 
 #include "Expect.h"
 #include "allpairs/scene/BoxArray.h"
+#include "allpairs/scene/EmptyBoxes.h"
 #include "allpairs/scene/FileError.h"
+#include "allpairs/scene/Scene.h"
 #include "support/Boxes.h"
 #include "support/TempFolder.h"
 
@@ -44,6 +46,59 @@ TEST(Csv, AHeaderMayNameTheColumnsInAnyOrder) {
   EXPECT_EQ(readText("name,minx,miny,minz,maxx,maxy,maxz\na,0.5,1,2,3,4,50\n"), (std::vector<Named>{{"a", kBox}}));
   EXPECT_EQ(readText("Min X,Max X,Min Y,Max Y,Min Z,Max Z\n0.5,3,1,4,2,50\n"), (std::vector<Named>{{"0", kBox}}));
   EXPECT_EQ(readText("x0,y0,z0,x1,y1,z1,what\n0.5,1,2,3,4,50,7\n"), (std::vector<Named>{{"7", kBox}}));
+}
+
+/// As np.savetxt() writes a header.
+TEST(Csv, ACommentMayNameTheColumns) {
+  EXPECT_EQ(readText("# made by hand\n# Min X,Max X,Min Y,Max Y,Min Z,Max Z\n0.5,3,1,4,2,50\n0.5,3,1,4,2,50\n"),
+            (std::vector<Named>{{"0", kBox}, {"1", kBox}}));
+  EXPECT_EQ(readText("#maxx,maxy,maxz,id,minx,miny,minz\n3,4,50,7,0.5,1,2\n"), (std::vector<Named>{{"7", kBox}}));
+  EXPECT_EQ(readText("# xmin,xmax,ymin,ymax,zmin,zmax\nx0,y0,z0,x1,y1,z1\n0.5,1,2,3,4,50\n"),
+            (std::vector<Named>{{"0", kBox}}))
+      << "a header that is no comment counts";
+  for (const char* comment :
+       {"# xmin,xmax,ymin,ymax,zmin,zmax,name", "# xmin,xmax,ymin,ymax,zmin", "# xmin,xmax,ymin,ymax,zmin,zmin",
+        "# xmin,xmax,ymin,ymax,zmin,zmax,a,b", "# \"xmin,xmax,ymin,ymax,zmin,zmax"})
+    EXPECT_EQ(readText(std::string(comment) + "\n0.5,1,2,3,4,50\n"), (std::vector<Named>{{"0", kBox}})) << comment;
+}
+
+/// As pandas writes a table whose columns have no names, with a column of the rows' numbers.
+TEST(Csv, AHeaderMayNumberTheColumnsBehindTheName) {
+  EXPECT_EQ(readText(",0,1,2,3,4,5\na,0.5,1.0,2.0,3.0,4.0,50.0\n"), (std::vector<Named>{{"a", kBox}}));
+  EXPECT_EQ(readText(",0,1,2,3,4,6\n"), (std::vector<Named>{{"0", {{0, 1, 2}, {3, 4, 6}}}})) << "a box without a name";
+}
+
+TEST(Csv, LinesThatMayNotBeWhatTheyAreTakenForAreNamed) {
+  const auto warningsOf = [](const std::string& text) {
+    const TempFolder folder;
+    const auto path = folder.write("boxes.csv", text);
+    std::string lines;
+    for (const scene::Remark& warning : scene::boxWarnings(scene::readCsv(path), path)) {
+      EXPECT_EQ(warning.file, path);
+      EXPECT_EQ(warning.subject, "");
+      lines += std::to_string(warning.line) + ": " + warning.reason + '\n';
+    }
+    return lines;
+  };
+  const std::string comment =
+      "begins with #, and is passed over as a comment; if it is a box, put its name in quotes\n";
+  const std::string box = "a,0,0,0,1,1,1\n";
+  EXPECT_EQ(warningsOf(box + "\n#1,0,0,0,1,1,1\n"), "3: " + comment);
+  EXPECT_EQ(warningsOf("#1,0,0,0,1,1,1\n" + box), "1: " + comment);
+  EXPECT_EQ(warningsOf("name,minx,miny,minz,maxx,maxy,maxz\n#1,0,0,0,1,1,1\n\n#2,0,0,0,1,1,1\n#3,0,0,0,1,1,1\n"),
+            "0: holds no boxes\n2: begins with #, and is passed over as a comment, as are 2 other lines; if they are "
+            "boxes, put their names in quotes\n");
+  EXPECT_EQ(warningsOf(box + "#1,0,0,0,1,1,1\n#1,0,0,0,1,1,1\n"),
+            "2: begins with #, and is passed over as a comment, as is 1 other line; if they are boxes, put their names "
+            "in quotes\n");
+  EXPECT_EQ(warningsOf(box + "# a,0,0,0,1,1,1\n#a,0,0,0,1,1\n#a,0,0,0,1,1,x\n#\"a\",0,0,0,1,1,1\n\"#1\",0,0,0,1,1,1\n"),
+            "");
+  EXPECT_EQ(warningsOf("0,0,0,1,1,1\n#0,0,0,1,1,1\n"), "") << "without names it can only be a comment";
+  EXPECT_EQ(warningsOf("0,1,2,3,4,5\n0.0,0.0,0.0,1.0,1.0,1.0\n"),
+            "1: 0,1,2,3,4,5 is taken for a box; if it numbers the columns, remove it\n");
+  EXPECT_EQ(warningsOf("0,0,0,1,1,1\n0,1,2,3,4,5\n"), "");
+  EXPECT_EQ(warningsOf("0.0,1,2,3,4,5\n"), "");
+  EXPECT_EQ(warningsOf("minx,miny,minz,maxx,maxy,maxz\n0,1,2,3,4,5\n"), "");
 }
 
 TEST(Csv, CommentsBlankLinesBlanksAndOtherLineEndsArePassedOver) {

@@ -43,6 +43,12 @@ class NameList {
   std::vector<std::uint64_t> m_ends;
 };
 
+/// A line of a text that may not be what it was taken for.
+struct LineNote {
+  std::size_t line = 0;
+  std::string reason;
+};
+
 /// The boxes of a file, float32 or float64, in one block, with names if the file has them.
 ///
 /// Threads: const use from any number of threads.
@@ -52,7 +58,7 @@ class BoxArray {
 
   /// Bad input: a NaN throws InvalidBox.
   BoxArray(BoxTable<float> table, std::string label, NameList names = {});
-  BoxArray(BoxTable<double> table, std::string label, NameList names = {});
+  BoxArray(BoxTable<double> table, std::string label, NameList names = {}, std::vector<LineNote> notes = {});
 
   /// A view of the boxes that stays valid when the array is moved, but not longer than it lives.
   [[nodiscard]] const BoxView& boxes() const noexcept { return m_boxes; }
@@ -61,6 +67,9 @@ class BoxArray {
   /// The name of box i: its name in the file, else its index. With several files, the index follows the file's name,
   /// and a number if several files have that name: a.npy[7], a.npy#2[7].
   [[nodiscard]] std::string name(std::size_t i) const;
+
+  /// The lines of its file to warn of; of an array that was made of several there are none.
+  [[nodiscard]] const std::vector<LineNote>& notes() const noexcept { return m_notes; }
 
   /// One array of all the boxes, in the order given: float32 if all are, else float64, which holds both exactly.
   [[nodiscard]] static BoxArray concatenate(std::vector<BoxArray> arrays);
@@ -78,6 +87,7 @@ class BoxArray {
   std::variant<BoxTable<float>, BoxTable<double>> m_table;
   BoxView m_boxes;
   std::vector<Part> m_parts;
+  std::vector<LineNote> m_notes;
 };
 
 /// Reads boxes from a NumPy file: an array of shape (n, 6), float32 or float64, either byte order, C or Fortran order,
@@ -90,8 +100,9 @@ class BoxArray {
 
 /// Reads boxes from lines of text: minx,miny,minz,maxx,maxy,maxz, as float64.
 ///
-/// The first or the last column may be a name. A first line that names the columns may put them in another order. Empty
-/// lines and lines that begin with # are skipped.
+/// The first or the last column may be a name. A first line that names the columns may put them in another order, also
+/// as a comment, if as many columns follow; one that numbers those behind the name, as pandas does, is none of boxes.
+/// Empty lines and lines that begin with # are skipped; a note tells of one that may be a box with such a name.
 /// Bad input: throws FileError with line and column; also for a file that is not text, such as UTF-16.
 [[nodiscard]] BoxArray readCsv(const std::filesystem::path& path);
 

@@ -46,8 +46,8 @@ struct EmptyBoxes {
 /// are.
 [[nodiscard]] std::string emptyReason(const EmptyBoxes& boxes);
 
-/// What to warn of in the boxes of a file: that some of them are empty, and that a text has none, as one that was not
-/// written to its end. A .npy file without boxes says so in its shape.
+/// What to warn of in the boxes of a file: that some of them are empty, that a text has none, as one that was not
+/// written to its end, and lines that may not be what they were taken for. A .npy file without boxes says so in its shape.
 [[nodiscard]] std::vector<Remark> boxWarnings(const BoxArray& boxes, const std::filesystem::path& file);
 
 }  // namespace allpairs::scene

@@ -38,8 +38,8 @@ BoxArray::BoxArray(BoxTable<float> table, std::string label, NameList names)
   m_parts.push_back({0, std::move(label), std::move(names)});
 }
 
-BoxArray::BoxArray(BoxTable<double> table, std::string label, NameList names)
-    : m_table(std::move(table)), m_boxes(viewOf(std::get<BoxTable<double>>(m_table))) {
+BoxArray::BoxArray(BoxTable<double> table, std::string label, NameList names, std::vector<LineNote> notes)
+    : m_table(std::move(table)), m_boxes(viewOf(std::get<BoxTable<double>>(m_table))), m_notes(std::move(notes)) {
   m_parts.push_back({0, std::move(label), std::move(names)});
 }
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -86,6 +87,25 @@ bool looksLikeHeader(const std::vector<CsvField>& fields) {
          (fields.size() >= kCoordinates || std::any_of(fields.begin(), fields.end(), isCoordinate));
 }
 
+/// Whether a comment names all columns, as np.savetxt() writes a header.
+bool namesColumns(const std::vector<CsvField>& fields) {
+  std::array<std::size_t, kCoordinates> counts{};
+  std::size_t others = 0;
+  for (const CsvField& field : fields) {
+    const std::optional<std::size_t> coordinate = coordinateOf(field.text);
+    ++(coordinate ? counts[*coordinate] : others);
+  }
+  return others <= 1 && std::all_of(counts.begin(), counts.end(), [](std::size_t count) { return count == 1; });
+}
+
+/// Whether fields number the columns from 0 to 5, as pandas does where they have no names.
+bool numbersColumns(std::span<const CsvField> fields) {
+  std::size_t number = 0;
+  return fields.size() == kCoordinates && std::all_of(fields.begin(), fields.end(), [&](const CsvField& field) {
+           return field.text == std::to_string(number++);
+         });
+}
+
 CsvLayout layoutOfHeader(const std::vector<CsvField>& fields, const TextPlace& place) {
   CsvLayout layout{.columns = fields.size()};
   layout.coordinates.fill(kNoColumn);
@@ -119,13 +139,10 @@ class CsvReader {
   void readLine(std::string_view line) {
     m_place.line += 1 + std::exchange(m_breaks, static_cast<std::size_t>(std::count(line.begin(), line.end(), '\n')));
     const std::size_t first = line.find_first_not_of(kBlanks);
-    if (first == std::string_view::npos || line[first] == '#') return;
+    if (first == std::string_view::npos) return;
+    if (line[first] == '#') return readComment(line.substr(first + 1));
     splitCsvLine(line, m_place, m_fields);
-    if (m_layout.columns == 0) {
-      const bool isHeader = looksLikeHeader(m_fields);
-      m_layout = isHeader ? layoutOfHeader(m_fields, m_place) : layoutOfData(m_fields, m_place);
-      if (isHeader) return;
-    }
+    if (m_layout.columns == 0 && readHeader()) return;
     readBox();
   }
 
@@ -133,10 +150,48 @@ class CsvReader {
     const std::size_t size = m_values.size() / kCoordinates;
     BoxTable<double> table{std::make_unique_for_overwrite<double[]>(m_values.size()), size};
     std::copy(m_values.begin(), m_values.end(), table.values.get());
-    return {std::move(table), m_place.file.filename().string(), std::move(m_names)};
+    if (m_boxLikeComments > 0) noteComments();
+    return {std::move(table), m_place.file.filename().string(), std::move(m_names), std::move(m_notes)};
   }
 
  private:
+  /// Finds the layout by the first line, and returns whether that holds no box.
+  bool readHeader() {
+    const std::span<const CsvField> fields(m_fields);
+    const bool hasNumbers = fields.size() > kCoordinates && fields[0].text.empty() && numbersColumns(fields.subspan(1));
+    const bool isHeader = looksLikeHeader(m_fields);
+    if (isHeader) {
+      m_layout = layoutOfHeader(m_fields, m_place);
+    } else if (m_commented.columns == fields.size()) {
+      m_layout = m_commented;
+    } else {
+      m_layout = layoutOfData(m_fields, m_place);
+      if (numbersColumns(fields))
+        m_notes.push_back({m_place.line, "0,1,2,3,4,5 is taken for a box; if it numbers the columns, remove it"});
+    }
+    return isHeader || hasNumbers;
+  }
+
+  /// It may name the columns, or be a box whose name begins with #. What programs put into quotes is neither.
+  void readComment(std::string_view text) {
+    if (text.find('"') != std::string_view::npos) return;
+    splitCsvLine(text, m_place, m_fields);
+    if (m_layout.columns == 0 && namesColumns(m_fields)) m_commented = layoutOfHeader(m_fields, m_place);
+    const bool isName = !text.empty() && !isBlank(text.front()) && m_fields.size() == kCoordinates + 1 &&
+                        (m_layout.columns == 0 || m_layout.name == 0);
+    if (isName && std::all_of(m_fields.begin() + 1, m_fields.end(), isCsvNumber) && m_boxLikeComments++ == 0)
+      m_firstBoxLike = m_place.line;
+  }
+
+  void noteComments() {
+    const std::size_t others = m_boxLikeComments - 1;
+    const std::string count = ", as " + std::string(others == 1 ? "is " : "are ") + std::to_string(others) +
+                              " other line" + (others == 1 ? "" : "s");
+    m_notes.push_back({m_firstBoxLike, "begins with #, and is passed over as a comment" +
+                                           (others == 0 ? "; if it is a box, put its name in quotes"
+                                                        : count + "; if they are boxes, put their names in quotes")});
+  }
+
   void readBox() {
     if (m_fields.size() != m_layout.columns) {
       throw FileError(m_place.file,
@@ -153,6 +208,10 @@ class CsvReader {
   std::size_t m_breaks = 0;  ///< In the last line.
   ReadScope& m_scope;
   CsvLayout m_layout;
+  CsvLayout m_commented;  ///< Of the last comment that names the columns.
+  std::size_t m_boxLikeComments = 0;
+  std::size_t m_firstBoxLike = 0;  ///< The line of the first of them.
+  std::vector<LineNote> m_notes;
   std::vector<CsvField> m_fields;
   std::vector<double> m_values;
   NameList m_names;

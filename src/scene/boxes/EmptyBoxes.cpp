@@ -16,14 +16,20 @@ std::string emptyReason(const EmptyBoxes& boxes) {
 }
 
 std::vector<Remark> boxWarnings(const BoxArray& boxes, const std::filesystem::path& file) {
-  if (boxes.size() == 0 && lowerExtension(file) == ".csv") return {{.file = file, .reason = "holds no boxes"}};
+  std::vector<Remark> warnings;
+  if (boxes.size() == 0 && lowerExtension(file) == ".csv")
+    warnings.push_back({.file = file, .reason = "holds no boxes"});
   EmptyBoxes empty;
   empty.look(boxes.boxes(), 0);
-  if (empty.count == 0) return {};
-  const std::string number = std::to_string(empty.first);
-  const std::string name = boxes.name(static_cast<std::size_t>(empty.first));
-  const std::string subject = "box " + number + (name == number ? "" : " '" + name + "'");
-  return {{.file = file, .subject = subject, .reason = emptyReason(empty)}};
+  if (empty.count > 0) {
+    const std::string number = std::to_string(empty.first);
+    const std::string name = boxes.name(static_cast<std::size_t>(empty.first));
+    const std::string subject = "box " + number + (name == number ? "" : " '" + name + "'");
+    warnings.push_back({.file = file, .subject = subject, .reason = emptyReason(empty)});
+  }
+  for (const LineNote& note : boxes.notes())
+    warnings.push_back({.file = file, .line = note.line, .reason = note.reason});
+  return warnings;
 }
 
 }  // namespace allpairs::scene
