@@ -123,6 +123,17 @@ TEST(ObjMesh, ACommentDoesNotGoOnInTheNextLine) {
   EXPECT_EQ(boxOf(*scene.models[0]), (Box{{0, 0, 0}, {5, 1, 0}}));
 }
 
+TEST(ObjMesh, CommentsMayFollowWhatAShapeIsMadeOf) {
+  const scene::Scene scene =
+      read("a.obj",
+           "v 0 0 0#one\nv 1 0 0 # C:\\temp\\\nv 0 1 0 # three\nv 0 2 0\no # 1\nf 1 2 3 # a face\n"
+           "f 1 \\\n# the others\n2 \\\n4 # 3\nl 1 2#3\np 4 # \\\np 3 \\\n# the end");
+  EXPECT_EQ(namesOf(scene), "# 1 TTriangleModel 2\n# 1#2 TLineModel 1\n# 1#3 TPointModel 2\n");
+  EXPECT_EQ(boxOf(*scene.models[0]), (Box{{0, 0, 0}, {1, 2, 0}}));
+  expectProblem("a.obj", "v 0 0 # 0\n", "a.obj:1: a position has three coordinates");
+  expectProblem("a.obj", "v 0 0 0\nf # 1 1 1\n", "a.obj:2: an element has no vertices");
+}
+
 TEST(ObjMesh, MayBeginWithAMarkAndHaveTheLinesOfOldMacs) {
   const std::string text = "v 9 0 0\nv 0 0 0\nv 0 1 0\nf 1 2 3\n";
   std::string mac = text;

@@ -21,7 +21,11 @@ using Path = std::filesystem::path;
 class ObjReader final : ObjParser {
  public:
   ObjReader(const Path& path, ReadScope& scope)
-      : ObjParser(path, {.elements = "flp", .joinsLines = true, .readsSeams = false, .maxIndex = kUnused - 1}),
+      : ObjParser(path, {.elements = "flp",
+                         .joinsLines = true,
+                         .endsInComments = true,
+                         .readsSeams = false,
+                         .maxIndex = kUnused - 1}),
         m_scope(scope) {}
 
   std::vector<MeshObject> read(std::string_view text) {

@@ -15,6 +15,14 @@ std::string_view takePart(std::string_view& corner) {
   return part;
 }
 
+/// Without the comment that may follow the numbers of a statement, which begins with `statement`.
+std::string_view withoutComment(std::string_view line, std::string_view statement) {
+  const std::size_t sign = line.find('#');
+  const bool hasNumbers =
+      sign != std::string_view::npos && isOneOf(takeWord(statement, isBlank), {"v", "vn", "vp", "vt", "f", "l", "p"});
+  return hasNumbers ? trimmed(line.substr(0, sign)) : line;
+}
+
 }  // namespace
 
 /// Calls visit(line, number) for each line, without the blanks around it.
@@ -24,8 +32,15 @@ void ObjParser::forEachLine(std::string_view text, const Visit& visit) const {
   for (std::size_t number = 1; !text.empty(); ++number) {
     std::string_view line = trimmed(takeLine(text));
     const bool isComment = joined.empty() && line.starts_with('#');  // which may end in the name of a folder
-    const bool goesOn = m_syntax.joinsLines && !isComment && line.ends_with('\\') && !text.empty();
-    if (goesOn) line.remove_suffix(1);
+    bool isBetween = false;                                          // a comment between the lines of one statement
+    if (m_syntax.endsInComments && !isComment) {
+      const std::string_view content = withoutComment(line, joined.empty() ? line : joined);
+      isBetween = content.empty() && !line.empty();
+      line = content;
+    }
+    const bool isContinued = !isComment && line.ends_with('\\');
+    const bool goesOn = m_syntax.joinsLines && (isContinued || isBetween) && !text.empty();
+    if (goesOn && isContinued) line.remove_suffix(1);
     if (goesOn || !joined.empty()) {
       joined.append(line).append(" ");
       line = trimmed(joined);

@@ -23,9 +23,10 @@ struct ObjCorner {
 
 /// What one reader of Wavefront files takes from them and another does not.
 struct ObjSyntax {
-  std::string_view elements;  ///< The statements that are elements: of f, l and p.
-  bool joinsLines = false;    ///< A line that ends in a backslash goes on in the next.
-  bool readsSeams = false;    ///< Corners have a texture coordinate and a normal beside their position.
+  std::string_view elements;    ///< The statements that are elements: of f, l and p.
+  bool joinsLines = false;      ///< A line that ends in a backslash goes on in the next.
+  bool endsInComments = false;  ///< A comment may follow the numbers of a statement. In a name, # is a letter.
+  bool readsSeams = false;      ///< Corners have a texture coordinate and a normal beside their position.
   std::int64_t maxIndex = std::numeric_limits<std::int64_t>::max();  ///< From 0; a larger one names no vertex.
 };
 
