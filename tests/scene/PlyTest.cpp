@@ -165,6 +165,48 @@ TEST(PlyMesh, ErrorsNameTheLine) {
       "mesh.ply: its faces have no list 'vertex_indices'");
 }
 
+TEST(PlyMesh, ErrorsFoundAtTheEndNameTheLineOfTheFace) {
+  const std::string head = std::string(kVertices) + "element face 3\nproperty list uchar int vertex_index\n";
+  const std::string vertices = "0 0 0\n1 0 0\n0 1 0\n1 1 0\n";
+  expectFileError([&] { (void)read(ascii(head, vertices + "3 0 1 2\n\n3 0 1 4\n3 0 1 2\n")); },
+                  "mesh.ply:17: face 1 names vertex 4 of 4");
+  expectFileError([&] { (void)read(ascii(head, vertices + "3 0 1 4\n3 0 1\n2\n3 0 1 4\n")); },
+                  "mesh.ply:15: face 0 names vertex 4 of 4");
+  std::string bytes = binary(false);
+  bytes[bytes.size() - 4] = 9;
+  expectFileError([&] { (void)read(bytes); }, "mesh.ply: face 0 names vertex 9 of 4");
+}
+
+/// As of old Macs. Greg Turk's description of the format has the lines of its header end in a carriage return.
+TEST(PlyMesh, LinesMayEndInACarriageReturnAlone) {
+  const auto inReturns = [](std::string text, const std::string& lineEnd) {
+    for (std::size_t at = text.find('\n'); at != std::string::npos; at = text.find('\n', at + lineEnd.size()))
+      text.replace(at, 1, lineEnd);
+    return text;
+  };
+  EXPECT_EQ(namesOf(read(inReturns(quad(), "\r"))), "mesh.ply TTriangleModel 2\n");
+  EXPECT_EQ(namesOf(read(inReturns(quad(), "\r\n"))), "mesh.ply TTriangleModel 2\n");
+  EXPECT_EQ(namesOf(read(inReturns(quad(), "\r\r\n"))), "mesh.ply TTriangleModel 2\n");
+  expectFileError([&] { (void)read(inReturns(ascii(kVertices, "0 0 0\n1 x 0\n"), "\r")); },
+                  "mesh.ply:10: 'x' is not a number");
+  for (const bool bigEndian : {false, true}) {
+    const std::string bytes = binary(bigEndian);
+    const std::size_t body = bytes.find("end_header\n") + 11;
+    const scene::Scene scene = read(inReturns(bytes.substr(0, body), "\r") + bytes.substr(body));
+    EXPECT_EQ(namesOf(scene), "mesh.ply TTriangleModel 2\n");
+    EXPECT_EQ(boxOf(*scene.models[0]), (Box{{0, 0, 3}, {0.1, 2, 3}}));
+  }
+}
+
+/// As MeshLab's library writes meshes of tetrahedra; as faces of four corners they lacked two of their four sides.
+TEST(PlyMesh, TetrahedraAreRefused) {
+  const std::string list = "\nproperty list uchar int vertex_indices\n";
+  const std::string vertices = "0 0 0\n1 0 0\n0 1 0\n0 0 1\n";
+  expectFileError([&] { (void)read(ascii(kVertices + ("element tetra 1" + list), vertices + "4 0 1 2 3\n")); },
+                  "mesh.ply: has tetrahedra, which are not read: export their surface");
+  EXPECT_EQ(namesOf(read(ascii(kVertices + ("element tetra 0" + list), vertices))), "mesh.ply TPointModel 4\n");
+}
+
 TEST(PlyMesh, EdgesAndStripsWhoseVerticesGoByOtherNamesAreRefused) {
   const auto expectRefused = [](const std::string& element, const std::string& row, const std::string& part) {
     expectFileError([&] { (void)read(ascii(kVertices + element, "0 0 0\n1 0 0\n0 1 0\n1 1 0\n" + row)); }, part);

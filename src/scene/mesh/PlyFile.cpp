@@ -24,7 +24,18 @@ using Path = std::filesystem::path;
 class PlyBody {
  public:
   PlyBody(std::string_view text, const PlyHeader& header, const Path& path)
-      : m_text(text.substr(header.size)), m_encoding(header.encoding), m_line(header.lines + 1), m_path(path) {}
+      : m_text(text.substr(header.size)),
+        m_encoding(header.encoding),
+        m_lineEnd(header.lineEnd),
+        m_line(header.lines + 1),
+        m_path(path) {}
+
+  /// Of the number that is next; 0 in a binary file.
+  std::size_t nextLine() {
+    if (m_encoding != PlyEncoding::Ascii) return 0;
+    skipBlanks();
+    return m_line;
+  }
 
   double next(PlyType type) { return m_encoding == PlyEncoding::Ascii ? nextWord() : nextBinary(type); }
 
@@ -43,7 +54,7 @@ class PlyBody {
   void skipBlanks() {
     std::size_t begin = 0;
     while (begin < m_text.size() && isBlankOrLineEnd(m_text[begin])) {
-      if (m_text[begin] == '\n') ++m_line;
+      if (m_text[begin] == m_lineEnd) ++m_line;
       ++begin;
     }
     m_text.remove_prefix(begin);
@@ -91,6 +102,7 @@ class PlyBody {
 
   std::string_view m_text;
   PlyEncoding m_encoding;
+  char m_lineEnd;
   std::size_t m_line;
   const Path& m_path;
 };
@@ -105,20 +117,20 @@ class PlyReader {
     for (const PlyElement& element : m_header.elements) {
       if (element.properties.empty()) continue;  // takes no room in the file, however many there are
       for (std::uint64_t row = 0; row < element.count; ++row) {
-        m_place = {&element, row};
+        m_place = {&element, row, m_body.nextLine()};
         readRow(element);
       }
     }
     m_body.checkEnd();
     const std::size_t vertices = m_object.positions.size();
     if (m_highest.index >= static_cast<double>(vertices)) {
-      m_body.fail(m_highest.place.text() + " names vertex " +
-                  std::to_string(static_cast<std::uint64_t>(m_highest.index)) + " of " + std::to_string(vertices));
+      failAt(m_highest.place, " names vertex " + std::to_string(static_cast<std::uint64_t>(m_highest.index)) + " of " +
+                                  std::to_string(vertices));
     }
     for (const Fan& fan : m_fans) {
       const auto triangles = std::span(m_object.triangles).subspan(fan.first, fan.count);
       const std::string problem = cutFan(m_object.positions, triangles, m_scope);
-      if (!problem.empty()) m_body.fail(fan.place.text() + " is " + problem);
+      if (!problem.empty()) failAt(fan.place, " is " + problem);
     }
     if (!m_object.hasElements()) m_object.addAllPoints();
     return {std::move(m_object)};
@@ -146,6 +158,8 @@ class PlyReader {
       if (element.name == "face" && !hasCorners) throw FileError(m_path, "its faces have no list 'vertex_indices'");
       if (element.name == "tristrips" && !hasCorners)
         throw FileError(m_path, "its strips of triangles have no list 'vertex_indices'");
+      if (element.name == "tetra" && hasCorners)
+        throw FileError(m_path, "has tetrahedra, which are not read: export their surface");
       const auto hasEnd = [&](std::string_view name) {
         return has([name](const PlyProperty& property) { return isEnd(property, name); });
       };
@@ -231,6 +245,7 @@ class PlyReader {
   struct Place {
     const PlyElement* element = nullptr;
     std::uint64_t row = 0;
+    std::size_t line = 0;  ///< In which it begins; 0 in a binary file.
 
     /// As errors call it: "face 7". A file may give elements any name; only known ones are repeated.
     [[nodiscard]] std::string text() const {
@@ -238,6 +253,11 @@ class PlyReader {
       return (isKnown ? element->name : "element") + ' ' + std::to_string(row);
     }
   };
+
+  /// Of what is only known at the end of the file.
+  [[noreturn]] void failAt(const Place& place, const std::string& problem) const {
+    throw FileError(m_path, place.text() + problem, place.line);
+  }
 
   struct Highest {
     double index = -1.0;

@@ -12,9 +12,17 @@
 namespace allpairs::scene {
 namespace {
 
+/// What the first line ends in; a carriage return before a line feed is a blank.
+char lineEndOf(std::string_view text) {
+  const std::size_t end = text.find_first_not_of('\r', text.find_first_of("\r\n"));
+  return end == std::string_view::npos || text[end] == '\n' ? '\n' : '\r';
+}
+
 class HeaderReader {
  public:
-  HeaderReader(std::string_view text, const std::filesystem::path& path) : m_text(text), m_path(path) {}
+  HeaderReader(std::string_view text, const std::filesystem::path& path) : m_text(text), m_path(path) {
+    m_header.lineEnd = lineEndOf(text);
+  }
 
   PlyHeader read() {
     if (nextLine() != "ply") fail("is not a .ply file: its first line is not 'ply'");
@@ -39,7 +47,7 @@ class HeaderReader {
 
  private:
   std::string_view nextLine() {
-    const std::size_t end = m_text.find('\n', m_position);
+    const std::size_t end = m_text.find(m_header.lineEnd, m_position);
     ++m_header.lines;
     if (end == std::string_view::npos) fail("the header has no end");
     const std::string_view line = m_text.substr(m_position, end - m_position);

@@ -32,6 +32,7 @@ struct PlyHeader {
   std::vector<PlyElement> elements;
   std::size_t size = 0;   ///< In bytes: where the body begins.
   std::size_t lines = 0;  ///< How many lines it has.
+  char lineEnd = '\n';    ///< What they end in: '\r' in files of old Macs.
 };
 
 /// Bad input: throws FileError with its line.
