@@ -146,6 +146,29 @@ TEST(StlMesh, HugeClaimsEndWithTheFile) {
                    "mesh.stl: truncated: the header promises 214748364834 bytes, the file has 134");
 }
 
+TEST(StlMesh, TheWordsOfASolidMayStandInOneLine) {
+  const std::string facet = "facet normal 0 0 1 outer loop vertex 0 0 0 vertex 1 0 0 vertex 0 1 0 endloop endfacet ";
+  const std::string far = "facet normal 0 0 1 outer loop vertex 0 0 0 vertex 1 0 0 vertex 0 9 0 endloop endfacet ";
+  EXPECT_EQ(namesOf(readStl("solid two words " + facet + far + "endsolid two words")), "two words TTriangleModel 2\n");
+  EXPECT_EQ(namesOf(readStl("solid a " + facet + "\n" + far + "\nendsolid a\n")), "a TTriangleModel 2\n");
+  EXPECT_EQ(namesOf(readStl("SOLID A " + facet + "ENDSOLID A\nsolid  " + far + "endsolid")),
+            "A TTriangleModel 1\nmesh.stl TTriangleModel 1\n");
+  EXPECT_EQ(namesOf(readStl("solid a\ncolor 1 0 0 " + facet + "\n" + far + "endsolid\n")), "a TTriangleModel 2\n");
+  EXPECT_EQ(namesOf(readStl("solid normal facet\n" + facet + "\nendsolid normal facet\n")),
+            "normal facet TTriangleModel 1\n");
+  const std::string both = "solid a\n" + facet + "\nendsolid a solid b " + far + "endsolid b\n";
+  expectStlProblem(both, "mesh.stl:3: a facet stands behind the end of a solid");
+  expectStlProblem("solid a\n" + facet + "endsolid a solid b " + far + "endsolid b\n",
+                   "mesh.stl:2: a facet stands behind the end of a solid");
+}
+
+TEST(StlMesh, ABinaryFileThatBeginsWithSolidAndIsCutIsTruncated) {
+  for (const char filling : {'\0', ' '}) {
+    const std::string bytes = binaryStl("solid a" + std::string(73, filling), kTwoFacets);
+    expectStlProblem(bytes.substr(0, 150), "mesh.stl: truncated: the header promises 184 bytes, the file has 150");
+  }
+}
+
 /// A reader that copied the rest of the line for each facet would take half a minute.
 TEST(StlMesh, AllFacetsMayStandInOneLine) {
   std::string facets;

@@ -29,12 +29,14 @@ std::uint64_t binarySize(std::string_view text) {
   return kHeaderSize + std::uint64_t{kFacetSize} * littleEndian<std::uint32_t>(text.substr(kHeaderSize - 4));
 }
 
-/// Binary files may begin with "solid" too; then their size gives them away, or a byte of their header that no text has.
+/// Binary files may begin with "solid" too; then their size gives them away, or a byte of their header that no text has,
+/// which most have in their number of facets.
 bool isBinary(std::string_view text) {
   if (text.size() >= kHeaderSize && text.size() >= binarySize(text)) {
     const bool isText = text.substr(0, kHeaderSize).find('\0') == std::string_view::npos;
     if (!isText || text.size() == binarySize(text)) return true;
   }
+  if (text.size() >= kHeaderSize && text.substr(kHeaderSize - 4, 4).find('\0') != std::string_view::npos) return true;
   const std::size_t first = text.find_first_not_of(" \t\r\n\xef\xbb\xbf");  // or the mark of a text in UTF-8
   return first == std::string_view::npos || lowerCase(text.substr(first, 5)) != "solid";
 }
@@ -76,6 +78,18 @@ std::vector<MeshObject> readBinary(std::string_view text, const Path& path, Read
   return {std::move(object)};
 }
 
+/// Where in a line a facet begins, or its length: behind the name of a solid, which may be any words but these two.
+std::size_t facetIn(std::string_view line) {
+  std::size_t begin = line.size();
+  std::string_view rest = line;
+  for (auto word = takeWord(rest, isBlank); !word.empty(); word = takeWord(rest, isBlank)) {
+    const std::string keyword = lowerCase(word);
+    if (keyword == "normal" && begin < line.size()) return begin;
+    begin = keyword == "facet" ? static_cast<std::size_t>(word.data() - line.data()) : line.size();
+  }
+  return line.size();
+}
+
 class TextReader {
  public:
   TextReader(std::string_view text, const Path& path, ReadScope& scope) : m_rest(text), m_path(path), m_scope(scope) {}
@@ -91,24 +105,32 @@ class TextReader {
 
  private:
   void readLine(std::string_view line) {
-    const std::string_view word = takeWord(line);
-    const std::string keyword = lowerCase(word);
-    if (keyword == "solid") {
-      if (m_isInSolid) fail("a solid begins within another");
-      m_isInSolid = true;
-      m_scope.takeElements(1, sizeof(MeshObject) + line.size());
-      m_objects.emplace_back().name = std::string(trimmed(line));
-    } else if (keyword == "endsolid") {
-      requireCorners(0);
-      m_isInSolid = false;
-    } else if (keyword != "color") {
-      readPart(word, keyword, line);
-    }
+    std::string_view rest = line;
+    const std::string keyword = lowerCase(takeWord(rest));
+    if (keyword == "solid") return readWords(beginSolid(rest));
+    readWords(keyword == "color" ? rest.substr(facetIn(rest)) : line);
   }
 
-  /// Of a facet, which may stand in one line or in several.
-  void readPart(std::string_view word, std::string keyword, std::string_view line) {
-    for (; !word.empty(); word = takeWord(line), keyword = lowerCase(word)) {
+  /// Returns what stands behind its name.
+  std::string_view beginSolid(std::string_view line) {
+    if (m_isInSolid) fail("a solid begins within another");
+    m_isInSolid = true;
+    const std::size_t facet = facetIn(line);
+    m_scope.takeElements(1, sizeof(MeshObject) + facet);
+    m_objects.emplace_back().name = std::string(trimmed(line.substr(0, facet)));
+    return line.substr(facet);
+  }
+
+  void endSolid(std::string_view name) {
+    requireCorners(0);
+    if (facetIn(name) < name.size()) fail("a facet stands behind the end of a solid, in one line");
+    m_isInSolid = false;
+  }
+
+  /// Those of a facet may stand in one line or in several.
+  void readWords(std::string_view line) {
+    for (auto word = takeWord(line); !word.empty(); word = takeWord(line)) {
+      const std::string keyword = lowerCase(word);
       if (keyword == "vertex") {
         addPosition(line);
       } else if (keyword == "facet") {
@@ -118,6 +140,8 @@ class TextReader {
         requireCorners(3);
         addTriangle(m_objects.back());
         m_corners = 0;
+      } else if (keyword == "endsolid") {
+        return endSolid(line);
       } else if (keyword != "outer" && keyword != "loop" && keyword != "endloop") {
         fail(quotedWord(word) + " is no word of STL");
       }
