@@ -36,6 +36,18 @@ TEST(OffMesh, CountsMayFollowTheFirstWordAndCommentsAndColoursArePassedOver) {
   }
 }
 
+TEST(OffMesh, TheFirstWordMayBeMissingAndTheCountsOnSeveralLines) {
+  const std::string rest = kSquare + std::string("4 0 1 2 3\n");
+  for (const std::string& text : {"4 1 0\n" + rest, "# made by hand\n4 1 0\n" + rest, "OFF\n4 1\n0\n" + rest,
+                                  "OFF\n4\n1\n0\n" + rest, "OFF 4\n1 0\n" + rest, "4\n1 # faces\n\n0\n" + rest}) {
+    const scene::Scene scene = readOff(text);
+    EXPECT_EQ(namesOf(scene), "mesh.off TTriangleModel 2\n") << text;
+    EXPECT_EQ(boxOf(*scene.models[0]), (Box{{0, 0, 0}, {1, 0.1, 0}})) << text;
+  }
+  expectOffProblem("OFF\n4\n", "mesh.off:2: truncated: its header promises more than the file has");
+  expectOffProblem("OFF\n4\nx\n", "mesh.off:3: 'x' is not a number of vertices or faces");
+}
+
 TEST(OffMesh, FacesOfTwoAreLinesThoseOfOnePointsAndVerticesAlonePoints) {
   EXPECT_EQ(namesOf(readOff(std::string("OFF\n4 3 0\n") + kSquare + "2 0 1\n1 2\n3 0 1 2\n")),
             "mesh.off TTriangleModel 1\nmesh.off#2 TLineModel 1\nmesh.off#3 TPointModel 1\n");

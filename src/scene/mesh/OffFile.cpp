@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <limits>
 #include <string_view>
 #include <system_error>
+#include <tuple>
+#include <utility>
 
 #include "allpairs/scene/FileError.h"
 #include "input/FileBytes.h"
@@ -46,20 +49,42 @@ class OffReader {
     return line;
   }
 
-  /// OFF, or with prefixes that say what stands behind each position: COFF, NOFF, STOFF. The counts may follow in the
-  /// same line, in some files without a blank between.
+  /// OFF, or with prefixes that say what stands behind each position: COFF, NOFF, STOFF, or nothing. The counts may
+  /// follow in the same line, in some files without a blank between, or in several.
   void readHeader() {
     std::string_view line = nextLine();
     const std::size_t keyword = line.find("OFF");
-    if (keyword == std::string_view::npos || line.find_first_not_of("STCN") < keyword) {
+    if (keyword != std::string_view::npos && line.find_first_not_of("STCN") == keyword) {
+      line = trimmed(line.substr(keyword + 3));
+      if (line == "BINARY") fail("is a binary OFF file, which is not read");
+    } else if (!isCount(line)) {
       fail("is no OFF file of points in space: its first word is " + quotedWord(takeWord(line)));
     }
-    line = trimmed(line.substr(keyword + 3));
-    if (line == "BINARY") fail("is a binary OFF file, which is not read");
-    if (line.empty()) line = nextLine();
-    m_vertices = count(line);
-    m_faces = count(line);
+    m_vertices = headerCount(line);
+    m_faces = headerCount(line);
+    if (line.empty()) passOverEdges();
     if (m_vertices > std::numeric_limits<std::uint32_t>::max()) fail("claims more vertices than can be numbered");
+  }
+
+  /// Whether a line begins with a count.
+  static bool isCount(std::string_view line) {
+    std::uint64_t value = 0;
+    return parseWhole(takeWord(line), value) == std::errc();
+  }
+
+  std::uint64_t headerCount(std::string_view& line) {
+    if (line.empty()) line = nextLine();
+    const std::uint64_t value = count(line);
+    line = trimmed(line);
+    return value;
+  }
+
+  /// Their number may be missing, or stand in a line of its own.
+  void passOverEdges() {
+    const auto before = std::pair(m_rest, m_line);
+    const std::string_view line = findLine();
+    const bool isOneWord = std::none_of(line.begin(), line.end(), isBlank);
+    if (!isOneWord || !isCount(line)) std::tie(m_rest, m_line) = before;
   }
 
   std::uint64_t count(std::string_view& line) {
