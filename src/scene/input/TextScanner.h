@@ -36,6 +36,9 @@ class TextScanner {
   /// Takes exactly that many bytes; throws if there are fewer.
   std::string_view bytes(std::size_t count);
 
+  /// Whether that is what is read next.
+  [[nodiscard]] bool startsWith(std::string_view bytes) const { return rest().starts_with(bytes); }
+
   /// How many bytes lie before what is read next.
   [[nodiscard]] std::size_t position() const { return m_position; }
   /// Goes back, or on, to such a place.

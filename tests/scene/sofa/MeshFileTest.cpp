@@ -204,6 +204,23 @@ TEST_F(SofaMeshFile, VtkMayBeBinary) {
               ElementsAre(Vec3{2, 2, 2}));
 }
 
+/// As VTK 9 writes them unless it is told otherwise.
+TEST_F(SofaMeshFile, VtkOfVersion5IsNamed) {
+  const std::string refusal =
+      "is of version 5 of VTK's files, in which cells stand in two arrays: write version 4.2, which can be read";
+  for (const std::string encoding : {"ASCII", "BINARY"}) {
+    const std::string numbers = encoding == "ASCII" ? "0 0 0 1 0 0 0 1 0" : std::string(36, '\0');
+    const std::string head = "# vtk DataFile Version 5.1\nt\n" + encoding + "\nDATASET ";
+    const std::string points = "\nPOINTS 3 float\n" + numbers + "\n";
+    const std::string arrays = " 2 3\nOFFSETS vtktypeint64\n0 3\nCONNECTIVITY vtktypeint64\n0 1 2\n";
+    for (const char* cells : {"POLYGONS", "LINES", "TRIANGLE_STRIPS"})
+      EXPECT_THAT(problem("a.vtk", head + "POLYDATA" + points + cells + arrays), HasSubstr("a.vtk:8: " + refusal));
+    EXPECT_THAT(problem("a.vtk", head + "UNSTRUCTURED_GRID" + points + "CELLS" + arrays + "CELL_TYPES 1\n5\n"),
+                HasSubstr("a.vtk:8: " + refusal));
+    EXPECT_THAT(mesh("a.vtk", head + "POLYDATA" + points + "VERTICES" + arrays).positions, SizeIs(3));
+  }
+}
+
 TEST_F(SofaMeshFile, VtkNamesWhatIsWrong) {
   EXPECT_THAT(problem("a.vtk", "nothing"), HasSubstr("no VTK file"));
   EXPECT_THAT(problem("a.vtu", "<VTKFile><Unstr"), HasSubstr("not well-formed"));

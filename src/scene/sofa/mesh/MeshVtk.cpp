@@ -90,6 +90,12 @@ class LegacyVtkReader {
     if (name == "CELLS") m_needsTypes = count > 0;
     if (name != "CELL_TYPES") count = this->count();
     m_text.skipLine();
+    if (m_text.startsWith("OFFSETS")) {
+      if (!kept && !passedOver) return;
+      m_text.word();
+      m_text.fail(
+          "is of version 5 of VTK's files, in which cells stand in two arrays: write version 4.2, which can be read");
+    }
     if (kept && name != "CELL_TYPES") m_cells = m_text.position();
     auto values = integers(count);
     if (kept) (name == "CELL_TYPES" ? m_lists.types : m_lists.cells) = std::move(values);
