@@ -134,6 +134,19 @@ TEST(ObjMesh, CommentsMayFollowWhatAShapeIsMadeOf) {
   expectProblem("a.obj", "v 0 0 0\nf # 1 1 1\n", "a.obj:2: an element has no vertices");
 }
 
+TEST(MeshText, InUtf16IsNamed) {
+  for (const std::string name : {"a.obj", "a.ply", "a.stl", "a.off"}) {
+    std::string little = "\xff\xfe";
+    std::string big = "\xfe\xff";
+    for (const char c : std::string(kStl)) {
+      little += {c, '\0'};
+      big += {'\0', c};
+    }
+    expectProblem(name, little, name + ": is a text in UTF-16; UTF-8 can be read");
+    expectProblem(name, big, name + ": is a text in UTF-16; UTF-8 can be read");
+  }
+}
+
 TEST(ObjMesh, MayBeginWithAMarkAndHaveTheLinesOfOldMacs) {
   const std::string text = "v 9 0 0\nv 0 0 0\nv 0 1 0\nf 1 2 3\n";
   std::string mac = text;

@@ -109,6 +109,11 @@ void removeByteOrderMark(std::string& text) {
   if (text.starts_with(kMark)) text.erase(0, kMark.size());
 }
 
+void refuseUtf16(std::string_view text, const std::filesystem::path& path) {
+  if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff"))
+    throw FileError(path, "is a text in UTF-16; UTF-8 can be read");
+}
+
 void makeLines(std::string& text) {
   removeByteOrderMark(text);
   for (std::size_t at = text.find('\r'); at != std::string::npos; at = text.find('\r', at)) {

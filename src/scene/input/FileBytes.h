@@ -59,7 +59,10 @@ void requireFilling(std::string_view rest, const std::filesystem::path& path);
 /// Takes off the mark with which some programs begin a text in UTF-8.
 void removeByteOrderMark(std::string& text);
 
-/// Likewise, and ends the lines of a text in \n that end in \r alone, be it all of them or some.
+/// Throws where a mark says that a text is in UTF-16, as Windows PowerShell writes what a program prints into a file.
+void refuseUtf16(std::string_view text, const std::filesystem::path& path);
+
+/// Takes off that of UTF-8 likewise, and ends the lines of a text in \n that end in \r alone, be it all of them or some.
 void makeLines(std::string& text);
 
 /// The extension in lower case, with its dot: ".npy".

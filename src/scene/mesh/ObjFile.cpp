@@ -180,6 +180,7 @@ class ObjReader final : ObjParser {
 
 std::vector<MeshObject> readObjObjects(const Path& path, ReadScope& scope) {
   std::string text = readText(path, scope.stop());
+  refuseUtf16(text, path);
   makeLines(text);
   return ObjReader(path, scope).read(text);
 }

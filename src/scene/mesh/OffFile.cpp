@@ -141,6 +141,7 @@ class OffReader {
 
 std::vector<MeshObject> readOffObjects(const Path& path, ReadScope& scope) {
   std::string text = readText(path, scope.stop());
+  refuseUtf16(text, path);
   makeLines(text);
   if (text.find_first_not_of(" \t\r\n") == std::string::npos) throw FileError(path, "is empty");
   return OffReader(text, path, scope).read();

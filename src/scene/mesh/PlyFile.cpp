@@ -288,6 +288,7 @@ class PlyReader {
 
 std::vector<MeshObject> readPlyObjects(const Path& path, ReadScope& scope) {
   std::string text = readText(path, scope.stop());
+  refuseUtf16(text, path);
   removeByteOrderMark(text);
   return PlyReader(text, path, scope).read();
 }

@@ -176,6 +176,7 @@ class TextReader {
 
 std::vector<MeshObject> readStlObjects(const Path& path, ReadScope& scope) {
   std::string text = readText(path, scope.stop());
+  if (text.size() < kHeaderSize || text.size() < binarySize(text)) refuseUtf16(text, path);
   if (isBinary(text)) return readBinary(text, path, scope);
   makeLines(text);
   return TextReader(text, path, scope).read();
