@@ -75,8 +75,9 @@ void writeFrames(const GenerateSettings& settings, Output& output) {
   generate::MotionFrames motion({settings.scene.scene, settings.scene.count, settings.scene.seed});
   NpyOutput file(output, "<f4", {settings.frames, settings.scene.count, 6});
   ProgressLine line;
-  for (std::uint64_t frame = 0; frame < settings.frames; ++frame) {
-    line.show(frame, settings.frames, "frame " + grouped(frame + 1) + " of " + grouped(settings.frames));
+  const std::uint64_t frames = settings.scene.count == 0 ? 0 : settings.frames;  // those without boxes have no bytes
+  for (std::uint64_t frame = 0; frame < frames; ++frame) {
+    line.show(frame, frames, "frame " + grouped(frame + 1) + " of " + grouped(frames));
     file.add(motion.next());
   }
 }

@@ -174,6 +174,8 @@ def join(
     target = _output_of(output)
     options = _join_options(values)
     options.work = _arguments.path_of("work", work) if work is not None else (target or names[0]) + ".work"
+    if not options.work:
+        raise InvalidArgument("work is empty; it takes the path of a folder")
     return JoinSummary(*_reading.join_files(names, target, options, _arguments.threads_of(threads)))
 
 

@@ -114,5 +114,13 @@ TEST(Generate, OfMoreThanTheDiskHoldsWritesNothing) {
   expectFailure(runScript("exec \"$0\" generate brownian -n 1e6 --frames 1e9 -o /dev/full"), 3, "No space left");
 }
 
+TEST(Generate, FramesWithoutBoxesHaveNoBytesHoweverMany) {
+  const TempFolder folder;
+  const std::string file = (folder.path() / "frames.npy").string();
+  const ProgramRun run = runProgram({"generate", "brownian", "-n", "0", "--frames", "1e15", "-o", file});
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_NE(readBytes(file).find("(1000000000000000, 0, 6)"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace allpairs::test

@@ -317,4 +317,6 @@ def test_join_says_what_is_wrong(tmp_path):
         allpairs.join(tmp_path / "nan.npy", second=[])
     with pytest.raises(allpairs.InvalidArgument, match="output is '.*pairs.csv'; a join writes .npy files"):
         allpairs.join(tmp_path / "nan.npy", tmp_path / "pairs.csv")
+    with pytest.raises(allpairs.InvalidArgument, match="work is empty; it takes the path of a folder"):
+        allpairs.join(tmp_path / "nan.npy", tmp_path / "pairs.npy", work="")
     assert [path.name for path in tmp_path.iterdir()] == ["nan.npy"]

@@ -135,7 +135,7 @@ TEST(ObjMesh, CommentsMayFollowWhatAShapeIsMadeOf) {
 }
 
 TEST(MeshText, InUtf16IsNamed) {
-  for (const std::string name : {"a.obj", "a.ply", "a.stl", "a.off"}) {
+  for (const std::string name : {"a.obj", "a.ply", "a.stl", "a.off", "a.dxf"}) {
     std::string little = "\xff\xfe";
     std::string big = "\xfe\xff";
     for (const char c : std::string(kStl)) {

@@ -428,6 +428,7 @@ std::vector<MeshObject> readDxfObjects(const Path& path, ReadScope& scope, FileN
   std::string text = readText(path, scope.stop());
   if (text.starts_with("AutoCAD Binary DXF"))
     throw FileError(path, "is a binary DXF, which is not read: save it as text");
+  refuseUtf16(text, path);
   makeLines(text);
   DxfReader reader(text, path, scope);
   reader.read();
