@@ -216,6 +216,27 @@ TEST_F(SofaGraph, FilesThatAnIncludedFileNamesAreFoundBesideIt) {
   EXPECT_THAT(pathsOf(readIn("<include href='sub/part.xml'/>")), ElementsAre("/P/D/p"));
 }
 
+TEST_F(SofaGraph, FilesAreBesideTheSceneOfTheNodeThatNamesThem) {
+  write("mesh.obj", "v 1 1 1\n");
+  write("sub/mesh.obj", "v 7 7 7\n");
+  const std::string loader = "<MeshOBJLoader name='l' filename='mesh.obj'/>";
+  const std::string points = "<MechanicalObject src='@l'/><PointModel/>";
+  const auto boxWith = [&](const std::string& part, const std::string& scene) {
+    write("sub/part.xml", part);
+    return onlyBox(readIn(scene));
+  };
+  const std::string include = "<include href='sub/part.xml'/>";
+  EXPECT_THAT(boxWith("<Node name='P'>" + loader + points + "</Node>", include), IsBox(Corners{7, 7, 7, 7, 7, 7}));
+  // The nodes around these are outside.
+  for (const char* name : {"Group", "_Merge_"})
+    EXPECT_THAT(boxWith("<Node name='" + std::string(name) + "'>" + loader + points + "</Node>", include),
+                IsBox(Corners{1, 1, 1, 1, 1, 1}))
+        << name;
+  EXPECT_THAT(boxWith("<Node name='Group'><Node>" + loader + points + "</Node></Node>", include),
+              IsBox(Corners{1, 1, 1, 1, 1, 1}));
+  EXPECT_THAT(boxWith(loader, include + points), IsBox(Corners{1, 1, 1, 1, 1, 1}));
+}
+
 TEST_F(SofaGraph, AMissingIncludeIsNamed) {
   EXPECT_THAT(complaintIn("<include href='missing.xml'/>"),
               testing::AllOf(HasSubstr("scene.scn:2:"), HasSubstr("missing.xml")));

@@ -467,7 +467,7 @@ std::optional<std::filesystem::path> Evaluation::file(const Component& component
   for (const auto name : names) {
     const auto [text, from] = fileName(component, name);
     if (text.empty()) continue;
-    auto found = m_scope.find(text, *from->place.file);
+    auto found = m_scope.find(text, *from->base);
     if (!found.problem.empty()) throw Unplaceable(component, "the file '" + std::string{text} + "' " + found.problem);
     m_scope.admit(found.path);
     return std::move(found.path);
@@ -478,7 +478,7 @@ std::optional<std::filesystem::path> Evaluation::file(const Component& component
 bool Evaluation::hasFile(const Component& component, Names names) {
   return std::ranges::any_of(names, [&](auto name) {
     const auto [text, from] = fileName(component, name);
-    return !text.empty() && m_scope.find(text, *from->place.file).problem.empty();
+    return !text.empty() && m_scope.find(text, *from->base).problem.empty();
   });
 }
 

@@ -73,6 +73,8 @@ struct Component {
   bool isNamed = false;
   Attributes attributes;
   Place place;
+  /// The file in whose folder it finds the files that it names: that of the node around it, whatever file it is from.
+  std::shared_ptr<const std::filesystem::path> base;
   Node* node = nullptr;
   std::size_t index = 0;  ///< Among the components of its node.
   std::size_t order = 0;  ///< Among all of the scene, as they stand in the file; SOFA makes them in this order.
@@ -99,6 +101,7 @@ struct Node {
   std::string badActivation;  ///< What `activated` is where it is neither true nor false.
   std::string gravity;        ///< As given; empty where it is not.
   Place place;
+  std::shared_ptr<const std::filesystem::path> base;  ///< The file that it or a node around it is the outermost of.
   Node* parent = nullptr;
   /// Names of components, each of the first before its second when the simulation starts, whatever their order here.
   std::vector<std::pair<std::string, std::string>> order;

@@ -29,6 +29,7 @@ struct Element {
   enum class Splice { Keep, Children, Merge };
 
   bool isNode = false;
+  bool isOutermost = false;  ///< Of its file.
   std::string type;
   std::string name;
   bool isNamed = true;
@@ -172,6 +173,7 @@ class ElementReader {
       throw FileError(path,
                       std::string{"the outermost element of "} +
                           (isIncluded ? "an included file must be a Node or a component" : "a scene must be a Node"));
+    root->isOutermost = true;
     return std::move(*root);
   }
 
@@ -292,6 +294,7 @@ void addComponent(Node& node, Element&& element, std::size_t order) {
   component->attributes = std::move(element.attributes);
   for (const auto& [name, value] : element.replacements) component->attributes.replace(name, value);
   component->place = element.place;
+  component->base = node.base;
   component->node = &node;
   component->index = node.components.size();
   component->order = order;
@@ -304,6 +307,7 @@ std::unique_ptr<Node> toNode(Element&& element, Node* parent, std::size_t& made)
   node->name = std::move(element.name);
   node->isNamed = element.isNamed;
   node->place = element.place;
+  node->base = element.isOutermost ? element.place.file : parent->base;
   node->parent = parent;
   node->gravity = element.attributes.value("gravity");
   const auto activated = element.attributes.value("activated");
