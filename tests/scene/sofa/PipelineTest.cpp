@@ -147,6 +147,22 @@ TEST_F(Pipelines, SweepAndPruneHasRulesOfItsOwnAndThatIsSaid) {
   EXPECT_TRUE(scene.pipelines[0].region);
 }
 
+TEST_F(Pipelines, OldDetectionsThatAreNotBruteForceHaveRulesOfTheirOwnAndThatIsSaid) {
+  const auto reasonsFor = [&](const std::string& type, SofaVersion sofa, const std::string& flags = {}) {
+    m_sofa = sofa;
+    return reasonsOf(readIn("<CollisionPipeline/><CollisionResponse/><LocalMinDistance/><BVHNarrowPhase/><" + type +
+                            "/><MechanicalObject/><SphereCollisionModel " + flags + "/>"));
+  };
+  EXPECT_THAT(reasonsFor("DirectSAP", SofaVersion::Sofa2006), ElementsAre(HasSubstr("without groups across nodes")));
+  EXPECT_THAT(reasonsFor("DirectSAP", SofaVersion::Sofa2612), IsEmpty());
+  const std::string itself = "selfCollision='1'";
+  EXPECT_THAT(reasonsFor("RayTraceDetection", SofaVersion::Sofa2006, itself),
+              ElementsAre(HasSubstr("SOFA pairs no model with itself")));
+  EXPECT_THAT(reasonsFor("RayTraceDetection", SofaVersion::Sofa2006), IsEmpty());
+  EXPECT_THAT(reasonsFor("RayTraceDetection", SofaVersion::Sofa2612, itself), IsEmpty());
+  EXPECT_THAT(reasonsFor("BruteForceDetection", SofaVersion::Sofa2006, itself), IsEmpty());
+}
+
 TEST_F(Pipelines, NamesThatSofaDoesNotHaveAreSaidOnce) {
   const auto reasonsFor = [&](const std::string& text, SofaVersion sofa = SofaVersion::Sofa2612) {
     m_sofa = sofa;

@@ -88,6 +88,7 @@ class ModelList {
   }
 
   [[nodiscard]] bool has(const Component& component) const { return m_indices.contains(&component); }
+  [[nodiscard]] const std::vector<ModelDescription>& descriptions() const { return m_scene.models; }
 
  private:
   bool add(const Component& component) {
@@ -151,17 +152,30 @@ void warnOf(const PipelineParts& parts, const Node& root, SceneDescription& scen
       remarkOn(*parts.component, "the pipeline lacks " + parts.missing + ": " + who + " detects nothing with it"));
 }
 
+/// Says which detections of SOFA have rules of their own. Newer SOFA makes a broad phase in the place of old ones.
+void warnOfOwnRules(Evaluation& evaluation, const Component& detection, bool anySelfCollision) {
+  const bool isOld = evaluation.generation() == Generation::Sofa20;
+  if (detection.type.starts_with("Incr") || (isOld && detection.type == "DirectSAP"))
+    evaluation.warn(detection,
+                    "SOFA compares the boxes of elements with this component, without contact distances and without "
+                    "groups across nodes; here the models' boxes are tested by the rules of BruteForceBroadPhase");
+  if (isOld && detection.type == "RayTraceDetection" && anySelfCollision)
+    evaluation.warn(
+        detection,
+        "SOFA pairs no model with itself or with another of its node with this component; here the rules of "
+        "BruteForceBroadPhase pair them");
+}
+
 PipelineDescription describePipeline(Evaluation& evaluation, const PipelineParts& parts, ModelList& models) {
   PipelineDescription pipeline;
   if (parts.component != nullptr) pipeline.path = parts.component->path();
   pipeline.method = describeMethod(evaluation, parts.method);
   pipeline.region = describeRegion(evaluation, parts.broadPhase);
-  if (parts.broadPhase != nullptr && parts.broadPhase->type.starts_with("Incr"))
-    evaluation.warn(*parts.broadPhase,
-                    "SOFA compares the boxes of elements with this component, without contact distances and without "
-                    "groups across nodes; here the models' boxes are tested by the rules of BruteForceBroadPhase");
   for (const auto* component : parts.models)
     if (const auto index = models.indexOf(*component)) pipeline.models.push_back(*index);
+  const bool anySelfCollision = std::ranges::any_of(
+      pipeline.models, [&](std::size_t model) { return models.descriptions()[model].selfCollision; });
+  if (parts.broadPhase != nullptr) warnOfOwnRules(evaluation, *parts.broadPhase, anySelfCollision);
   return pipeline;
 }
 
