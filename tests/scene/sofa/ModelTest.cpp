@@ -104,6 +104,25 @@ TEST_F(SofaModel, FlagsAreReadInEverySpelling) {
   EXPECT_TRUE(scene.models[1].useCurvature);
 }
 
+TEST_F(SofaModel, HasWhatOldSofaKnowsOfItWhereThatIsAskedFor) {
+  const std::string text =
+      std::string{kMesh} + "<TriangleModel useCurvature='1' proximity='0.25' contactDistance='0.125'/>";
+  m_sofa = SofaVersion::Sofa2612;
+  const auto today = readIn(text);
+  EXPECT_TRUE(today.models.at(0).useCurvature);
+  EXPECT_EQ(today.models[0].contactDistance, 0.25);
+  m_sofa = SofaVersion::Sofa2006;
+  const auto old = readIn(text + "<PointModel contactDistance='0.125'/>");
+  EXPECT_FALSE(old.models.at(0).useCurvature);
+  EXPECT_EQ(old.models[0].contactDistance, 0.25);
+  EXPECT_EQ(old.models.at(1).contactDistance, 0);
+  std::vector<std::string> reasons;
+  for (const auto& warning : old.warnings) reasons.push_back(warning.subject + ": " + warning.reason);
+  EXPECT_THAT(reasons, testing::IsSupersetOf(
+                           {HasSubstr("/tTriangleModel1: its useCurvature is not read, as in SOFA before 20.12"),
+                            HasSubstr("/tPointModel1: its contactDistance is not read, as in SOFA before 25.12")}));
+}
+
 TEST_F(SofaModel, AGroupThatIsComputedAndNoNumberIsAnError) {
   EXPECT_THAT(complaintIn("<TransformEngine name='t' input_position='1e300 1e300 1e300' scale='1e300 1e300 1e300' "
                           "rotation='0 0 45'/><MechanicalObject/><PointModel group='@t.output_position'/>"),

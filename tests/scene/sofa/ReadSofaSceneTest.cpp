@@ -177,6 +177,26 @@ TEST_F(ReadSofaScene, WhatAModelRefusesIsNamedWithItsLineOrLeftOut) {
   EXPECT_TRUE(scene.remarks[0].isPartial);
 }
 
+TEST_F(ReadSofaScene, ContactDistancesCountBetweenBoxesExceptWhereOldSofaIsAskedFor) {
+  // Boxes of 1.1 with 0.8 between them.
+  const auto spheres = [](const std::string& method) {
+    const auto sphere = [](const std::string& x) {
+      return "<Node><MechanicalObject position='" + x + " 0 0'/><SphereModel radius='1' proximity='0.1'/></Node>";
+    };
+    return "<DefaultPipeline/><BruteForceDetection/><" + method + " alarmDistance='0.75'/>" + sphere("0") + sphere("3");
+  };
+  const auto pairs = [&](const std::string& method, SofaVersion sofa) {
+    const auto path = m_folder.write("scene.scn", "<Node>" + spheres(method) + "</Node>");
+    return pairsOf(readSofaScene(path, {.sofa = sofa}));
+  };
+  for (const char* method : {"MinProximityIntersection", "NewProximityIntersection"}) {
+    EXPECT_EQ(pairs(method, SofaVersion::FromScene), (Pairs{{1, 0}})) << method;
+    EXPECT_EQ(pairs(method, SofaVersion::Sofa2612), (Pairs{{1, 0}})) << method;
+    EXPECT_EQ(pairs(method, SofaVersion::Sofa2006), Pairs{}) << method;
+  }
+  EXPECT_EQ(pairs("LocalMinDistance", SofaVersion::Sofa2006), (Pairs{{1, 0}}));
+}
+
 TEST(ReadSofaDataScenes, GiveThePairsThatSofaPrintedInItsOrder) {
   ALLPAIRS_NEED_SCENES(scenes);
   std::size_t total = 0;

@@ -47,6 +47,11 @@ class Evaluation {
   [[nodiscard]] ReadScope& scope() { return m_scope; }
   [[nodiscard]] Generation generation() const { return m_generation; }
 
+  /// Whether SOFA 20.06 was asked for, and not taken for want of a sign of a newer one: then the models' contact
+  /// distances, too, are what they were there.
+  void setOldDistances(bool old) { m_hasOldDistances = old; }
+  [[nodiscard]] bool hasOldDistances() const { return m_hasOldDistances; }
+
   using Names = std::initializer_list<std::string_view>;
   /// As a width: all numbers in a row, whatever entries they make where they come from.
   static constexpr std::size_t kFlat = 0;
@@ -113,6 +118,7 @@ class Evaluation {
 
   ReadScope& m_scope;
   Generation m_generation;
+  bool m_hasOldDistances = false;
   std::unordered_map<const Component*, Mesh> m_meshes;
   std::unordered_map<const Component*, Topology> m_topologies;
   std::unordered_map<const Component*, State> m_states;

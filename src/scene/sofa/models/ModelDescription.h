@@ -54,6 +54,7 @@ struct MethodDescription {
   std::string name;  ///< As the scene calls it; empty where it names none.
   double alarmDistance = 0;
   double contactDistance = 0;
+  bool addsContactDistances = true;  ///< Those of the models, to the alarm distance; of methods that know them.
 };
 
 /// One collision pipeline of a scene: it tests its own models against one another, in its own way.

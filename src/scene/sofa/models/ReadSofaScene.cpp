@@ -177,6 +177,8 @@ std::unique_ptr<collision::Intersection> makeMethod(const sofa::MethodDescriptio
     result = std::make_unique<collision::DiscreteIntersection>();
   result->setAlarmDistance(method.alarmDistance);
   result->setContactDistance(method.contactDistance);
+  if (auto* proximity = dynamic_cast<collision::ProximityIntersection*>(result.get()))
+    proximity->setContactDistanceInBroadPhase(method.addsContactDistances);
   return result;
 }
 

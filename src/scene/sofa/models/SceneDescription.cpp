@@ -35,6 +35,7 @@ MethodDescription describeMethod(Evaluation& evaluation, const Component* method
   if (method->kind() == ComponentKind::ProximityMethod) {
     result.alarmDistance = evaluation.number(*method, {"alarmDistance"}, 1.0);
     result.contactDistance = evaluation.number(*method, {"contactDistance"}, 0.5);
+    result.addsContactDistances = !evaluation.hasOldDistances() || method->type == "LocalMinDistance";
   } else if (method->type != "DiscreteIntersection") {
     result.alarmDistance = evaluation.number(*method, {"alarmDistance"}, 0.0);
   } else if (method->attributes.has("alarmDistance")) {
@@ -234,6 +235,7 @@ SceneDescription describeScene(const std::filesystem::path& path, const ReadOpti
   if (generation == Generation::Sofa26) nameByClass(*root);
   indexNames(*root);
   Evaluation evaluation(*root, scope, generation);
+  evaluation.setOldDistances(options.sofa == SofaVersion::Sofa2006);
   SceneDescription scene;
   scene.up = upOf(*root);
   ModelList models(evaluation, options.partial, scene);
