@@ -163,6 +163,19 @@ TEST_F(Pipelines, OldDetectionsThatAreNotBruteForceHaveRulesOfTheirOwnAndThatIsS
   EXPECT_THAT(reasonsFor("BruteForceDetection", SofaVersion::Sofa2006, itself), IsEmpty());
 }
 
+TEST_F(Pipelines, WhereNothingTellsTheVersionContactDistancesAreSaidToCount) {
+  const auto reasonsFor = [&](const std::string& method, const std::string& distance, SofaVersion sofa) {
+    m_sofa = sofa;
+    return reasonsOf(readIn("<CollisionPipeline/><CollisionResponse/><BruteForceDetection/><" + method +
+                            "/><MechanicalObject/><SphereCollisionModel proximity='" + distance + "'/>"));
+  };
+  const std::string min = "MinProximityIntersection";
+  EXPECT_THAT(reasonsFor(min, "0.1", SofaVersion::FromScene), ElementsAre(HasSubstr("as in SOFA since 21.06")));
+  EXPECT_THAT(reasonsFor(min, "0", SofaVersion::FromScene), IsEmpty());
+  EXPECT_THAT(reasonsFor("LocalMinDistance", "0.1", SofaVersion::FromScene), IsEmpty());
+  EXPECT_THAT(reasonsFor(min, "0.1", SofaVersion::Sofa2006), IsEmpty());
+}
+
 TEST_F(Pipelines, NamesThatSofaDoesNotHaveAreSaidOnce) {
   const auto reasonsFor = [&](const std::string& text, SofaVersion sofa = SofaVersion::Sofa2612) {
     m_sofa = sofa;

@@ -167,6 +167,15 @@ void warnOfOwnRules(Evaluation& evaluation, const Component& detection, bool any
         "BruteForceBroadPhase pair them");
 }
 
+/// Nothing in a scene may tell whether it is meant for a SOFA that adds contact distances to those of all its methods.
+void warnOfNewDistances(Evaluation& evaluation, const Component& method) {
+  if (method.kind() != ComponentKind::ProximityMethod || method.type == "LocalMinDistance") return;
+  if (evaluation.generation() == Generation::Sofa20 && !evaluation.hasOldDistances())
+    evaluation.warn(method,
+                    "the contact distances of its models count between root boxes, as in SOFA since 21.06; they do not "
+                    "if 20.06 is asked for");
+}
+
 PipelineDescription describePipeline(Evaluation& evaluation, const PipelineParts& parts, ModelList& models) {
   PipelineDescription pipeline;
   if (parts.component != nullptr) pipeline.path = parts.component->path();
@@ -177,6 +186,9 @@ PipelineDescription describePipeline(Evaluation& evaluation, const PipelineParts
   const bool anySelfCollision = std::ranges::any_of(
       pipeline.models, [&](std::size_t model) { return models.descriptions()[model].selfCollision; });
   if (parts.broadPhase != nullptr) warnOfOwnRules(evaluation, *parts.broadPhase, anySelfCollision);
+  const bool anyContactDistance = std::ranges::any_of(
+      pipeline.models, [&](std::size_t model) { return models.descriptions()[model].contactDistance != 0; });
+  if (parts.method != nullptr && anyContactDistance) warnOfNewDistances(evaluation, *parts.method);
   return pipeline;
 }
 
