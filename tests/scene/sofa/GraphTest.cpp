@@ -216,6 +216,15 @@ TEST_F(SofaGraph, FilesThatAnIncludedFileNamesAreFoundBesideIt) {
   EXPECT_THAT(pathsOf(readIn("<include href='sub/part.xml'/>")), ElementsAre("/P/D/p"));
 }
 
+TEST_F(SofaGraph, AnIncludeRenamesAComponent) {
+  write("part.xml", "<Node name='P'><MechanicalObject name='dof' position='1 2 3'/><PointModel name='p'/></Node>");
+  const auto scene = readIn(
+      "<include href='part.xml' dof__name='state' p__name='q' P__name='Q'/>"
+      "<Node><MechanicalObject position='@../P/state.position'/><PointModel name='p'/></Node>");
+  EXPECT_THAT(pathsOf(scene), ElementsAre("/P/q", "/1/p"));
+  EXPECT_THAT(boxOf(scene.models.at(1)), IsBox(Corners{1, 2, 3, 1, 2, 3}));
+}
+
 TEST_F(SofaGraph, FilesAreBesideTheSceneOfTheNodeThatNamesThem) {
   write("mesh.obj", "v 1 1 1\n");
   write("sub/mesh.obj", "v 7 7 7\n");

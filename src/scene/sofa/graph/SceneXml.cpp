@@ -292,7 +292,12 @@ void addComponent(Node& node, Element&& element, std::size_t order) {
   component->name = std::move(element.name);
   component->isNamed = element.isNamed;
   component->attributes = std::move(element.attributes);
-  for (const auto& [name, value] : element.replacements) component->attributes.replace(name, value);
+  for (const auto& [name, value] : element.replacements) {
+    if (name == "name")
+      component->name = value;
+    else
+      component->attributes.replace(name, value);
+  }
   component->place = element.place;
   component->base = node.base;
   component->node = &node;
