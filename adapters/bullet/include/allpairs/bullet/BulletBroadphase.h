@@ -132,12 +132,13 @@ class BulletBroadphase : public btBroadphaseInterface {
   }
 
   /// Calls the callback for each box that the ray, or the given box along the ray, hits: from near to far. Those of
-  /// characters count without their margin. A ray or a box that is not finite hits nothing, as in Bullet.
+  /// characters count without their margin. A ray of which an end, the length or the box is not finite hits none.
   // NOLINTNEXTLINE(readability-function-size): the parameters are Bullet's.
   void rayTest(const btVector3& rayFrom, const btVector3& rayTo, btBroadphaseRayCallback& rayCallback,
                const btVector3& aabbMin = btVector3(0, 0, 0), const btVector3& aabbMax = btVector3(0, 0, 0)) override {
     if (!internal::areFinite({rayFrom, rayTo, aabbMin, aabbMax})) return;
     const BoxSweep sweep = internal::sweepOf(internal::toBox(aabbMin, aabbMax), rayFrom, rayTo);
+    if (!internal::isFinite(sweep.motion)) return;
     std::vector<SweepHit> hits = m_world.findAll(sweep);
     useOwnBoxes(sweep, hits);
     for (const SweepHit& hit : hits) rayCallback.process(&m_proxies[hit.id]);

@@ -23,11 +23,12 @@ namespace allpairs::internal {
 
 [[nodiscard]] inline Box toBox(const btVector3& min, const btVector3& max) { return {toArray(min), toArray(max)}; }
 
+[[nodiscard]] inline bool isFinite(const std::array<double, 3>& x) {
+  return std::isfinite(x[0]) && std::isfinite(x[1]) && std::isfinite(x[2]);
+}
+
 [[nodiscard]] inline bool areFinite(std::initializer_list<btVector3> points) {
-  return std::all_of(points.begin(), points.end(), [](const btVector3& point) {
-    const std::array<double, 3> x = toArray(point);
-    return std::isfinite(x[0]) && std::isfinite(x[1]) && std::isfinite(x[2]);
-  });
+  return std::all_of(points.begin(), points.end(), [](const btVector3& point) { return isFinite(toArray(point)); });
 }
 
 /// A box that is moved from one place to another. Bullet's own sums are rounded to its precision.
