@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
+#include <BulletCollision/CollisionDispatch/btGhostObject.h>
 #include <btBulletDynamicsCommon.h>
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
+#include <memory>
 #include <random>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -77,6 +80,90 @@ TEST(BulletThreads, FindThePairsOfOneThread) {
   EXPECT_GT(found.back().size(), 10000U);
   EXPECT_NE(found.front(), found.back());
   EXPECT_EQ(found, pairsOfSteps(nullptr));
+}
+
+/// What rays and boxes find among bodies and characters, by user index, in the order in which it is told.
+struct Found : btBroadphaseRayCallback {
+  std::vector<int> numbers;
+  bool process(const btBroadphaseProxy* proxy) override {
+    numbers.push_back(userIndexOf(*proxy));
+    return true;
+  }
+};
+
+/// Bodies, each tenth of them a character, which are asked about between two moves.
+class AskedBodies {
+ public:
+  AskedBodies() : m_broadphase({.executor = &m_threads}) {
+    for (int i = 0; i < kBodies; ++i) {
+      const bool isCharacter = i % 10 == 0;
+      auto& object = m_objects.emplace_back(isCharacter ? std::make_unique<btGhostObject>()
+                                                        : std::make_unique<btCollisionObject>());
+      object->setUserIndex(i);
+      if (isCharacter) object->setCollisionFlags(btCollisionObject::CF_CHARACTER_OBJECT);
+      m_proxies.push_back(m_broadphase.createProxy({0, 0, 0}, {1, 1, 1}, 0, object.get(), 1, -1, &m_dispatcher));
+    }
+  }
+
+  ~AskedBodies() {
+    for (btBroadphaseProxy* proxy : m_proxies) m_broadphase.destroyProxy(proxy, &m_dispatcher);
+  }
+
+  AskedBodies(const AskedBodies&) = delete;
+  AskedBodies& operator=(const AskedBodies&) = delete;
+
+  void move() {
+    for (btBroadphaseProxy* proxy : m_proxies) {
+      const btVector3 min = anywhere();
+      m_broadphase.setAabb(proxy, min, min + btVector3(1, 1, 1), &m_dispatcher);
+    }
+  }
+
+  /// The same questions each time.
+  [[nodiscard]] std::vector<int> ask() {
+    std::mt19937 random(8);
+    std::uniform_real_distribution<btScalar> place(0, kExtent);
+    Found found;
+    for (int i = 0; i < 50; ++i) {
+      const btVector3 from(place(random), place(random), place(random));
+      const btVector3 to(place(random), place(random), place(random));
+      m_broadphase.rayTest(from, to, found, {-1, -1, -1}, {1, 1, 1});
+      m_broadphase.aabbTest(from, from + btVector3(2, 2, 2), found);
+    }
+    return found.numbers;
+  }
+
+ private:
+  static constexpr int kBodies = 2000;
+  static constexpr btScalar kExtent = 20;
+
+  btVector3 anywhere() {
+    std::uniform_real_distribution<btScalar> place(0, kExtent);
+    return {place(m_random), place(m_random), place(m_random)};
+  }
+
+  std::mt19937 m_random{6};
+  parallel::TbbExecutor m_threads{2};
+  btDefaultCollisionConfiguration m_configuration;
+  btCollisionDispatcher m_dispatcher{&m_configuration};
+  BulletBroadphase m_broadphase;
+  std::vector<std::unique_ptr<btCollisionObject>> m_objects;
+  std::vector<btBroadphaseProxy*> m_proxies;
+};
+
+TEST(BulletThreads, MayTestRaysAndBoxesAtTheSameTime) {
+  AskedBodies bodies;
+  for (int round = 0; round < 5; ++round) {
+    bodies.move();
+    std::vector<std::vector<int>> found(4);
+    std::vector<std::thread> threads;
+    threads.reserve(found.size());
+    for (std::vector<int>& each : found) threads.emplace_back([&] { each = bodies.ask(); });
+    for (std::thread& thread : threads) thread.join();
+    const std::vector<int> expected = bodies.ask();
+    EXPECT_GT(expected.size(), 1000U);
+    EXPECT_THAT(found, ::testing::Each(expected)) << "round " << round;
+  }
 }
 
 }  // namespace

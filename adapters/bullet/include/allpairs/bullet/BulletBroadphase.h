@@ -50,8 +50,8 @@ namespace allpairs {
 /// Cost:      a step of allpairs::World, Bullet's own for each pair that begins or ends, and a pass over the proxies;
 ///            one over the cache if it is the user's, or was changed from outside. setAabb() with the same box costs
 ///            nothing, unless the proxy's pairs are added at once.
-/// Threads:   one call at a time per object, rayTest() and aabbTest() included. Their callbacks may make such queries
-///            too, and must not add, move or remove proxies.
+/// Threads:   rayTest() and aabbTest() may be called concurrently while nothing else runs, all others one at a time. A
+///            callback may make such queries too, and must not add, move or remove proxies.
 class BulletBroadphase : public btBroadphaseInterface {
  public:
   explicit BulletBroadphase(const BulletBroadphaseOptions& options = {})
