@@ -4,6 +4,7 @@
 #include <BulletCollision/CollisionDispatch/btCollisionDispatcher.h>
 #include <BulletCollision/CollisionDispatch/btDefaultCollisionConfiguration.h>
 #include <BulletCollision/CollisionDispatch/btGhostObject.h>
+#include <BulletCollision/CollisionShapes/btCapsuleShape.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -440,6 +441,25 @@ TEST(BulletBroadphase, OneThatIsNotEmptyIsNotReset) {
   EXPECT_EQ(broadphase.proxyOf(0), first);
   EXPECT_EQ(broadphase.proxyOf(1), second);
   for (auto* proxy : {first, second}) broadphase.destroyProxy(proxy, nullptr);
+}
+
+TEST(BulletBroadphase, AnEmptyBoxHasNoPairsAndIsHitByNothing) {
+  btCapsuleShape capsule(btScalar(0.5), 1);
+  capsule.setLocalScaling({-1, 1, 1});
+  btVector3 min;
+  btVector3 max;
+  capsule.getAabb(btTransform::getIdentity(), min, max);
+  ASSERT_GT(min.x(), max.x()) << "Bullet gives a capsule that is mirrored another box";
+  BulletBroadphase broadphase;
+  auto* const mirrored = broadphase.createProxy(min, max, 0, nullptr, 1, -1, nullptr);
+  auto* const around = broadphase.createProxy({-9, -9, -9}, {9, 9, 9}, 0, nullptr, 1, -1, nullptr);
+  broadphase.calculateOverlappingPairs(nullptr);
+  EXPECT_THAT(pairsOf(*broadphase.getOverlappingPairCache()), IsEmpty());
+  Collector collector;
+  broadphase.rayTest({-20, 0, 0}, {20, 0, 0}, collector);
+  broadphase.aabbTest({-1, -1, -1}, {1, 1, 1}, collector);
+  EXPECT_THAT(collector.found, ElementsAre(around, around));
+  for (auto* proxy : {mirrored, around}) broadphase.destroyProxy(proxy, nullptr);
 }
 
 TEST(BulletBroadphase, RefusesABoxWithANaN) {

@@ -39,8 +39,8 @@ namespace allpairs {
 /// removes its pairs at once. A change of group or mask counts from that call on, a filter callback that decides
 /// differently when the box of one of the two next changes.
 ///
-/// Geometry:  boxes are closed, in the precision of btScalar. Rays, with the box that Bullet may give them, are tested
-///            in double.
+/// Geometry:  boxes are closed, in the precision of btScalar. One with a minimum above its maximum is empty: it has no
+///            pairs, and nothing hits it. Rays, with the box that Bullet may give them, are tested in double.
 /// Order:     pairs are in the order in which the cache got them, so that two runs with the same calls give the same.
 ///            With BulletBroadphaseOptions::number the order does not depend on earlier calls either.
 /// Bad input: a proxy's box with a NaN throws InvalidBox; a number that is negative or taken, a number with a
