@@ -11,6 +11,7 @@
 
 #include "BulletPairs.h"
 #include "allpairs/bullet/BulletBroadphase.h"
+#include "allpairs/bullet/EarlyPairs.h"
 
 namespace allpairs::test {
 namespace {
@@ -103,6 +104,20 @@ TEST(BulletCache, IsPutInOrderWhenItIsSortedBetweenSteps) {
   }
   EXPECT_EQ(held, expected);
   for (auto* proxy : proxies) broadphase.destroyProxy(proxy, nullptr);
+}
+
+TEST(BulletCache, PairsThatComeAndGoBetweenStepsTakeTheMemoryOfAFew) {
+  internal::EarlyPairs early;
+  for (int i = 0; i < 1000; ++i) {
+    early.reserve(2);
+    early.add({4, 5});
+    early.add({1, 2});
+    early.reserve(1);
+    early.add({1, 3});
+  }
+  EXPECT_LE(early.capacity(), 6U);
+  early.sort();
+  EXPECT_EQ(early.pairs(), (std::vector<Pair>{{1, 2}, {1, 3}, {4, 5}}));
 }
 
 }  // namespace

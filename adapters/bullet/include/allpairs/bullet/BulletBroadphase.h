@@ -24,6 +24,7 @@
 #include "allpairs/bullet/Blocks.h"
 #include "allpairs/bullet/BulletBroadphaseOptions.h"
 #include "allpairs/bullet/CountingPairCache.h"
+#include "allpairs/bullet/EarlyPairs.h"
 #include "allpairs/bullet/OrderedPairCache.h"
 #include "allpairs/bullet/PairDigest.h"
 #include "allpairs/bullet/Vectors.h"
@@ -161,7 +162,7 @@ class BulletBroadphase : public btBroadphaseInterface {
     const StepResult step = m_world.step();
     removePairs(step, dispatcher);
     for (const Pair& pair : step.began) {
-      if (!contains(m_early, pair)) addPair(pair);
+      if (!contains(m_early.pairs(), pair)) addPair(pair);
     }
     m_early.clear();
     noteChanges(step);
@@ -350,8 +351,7 @@ class BulletBroadphase : public btBroadphaseInterface {
   [[nodiscard]] std::vector<BoxId> nearTo(const Proxy& proxy, const btVector3& min, const btVector3& max) {
     if (!isImmediate(proxy)) return {};
     std::vector<BoxId> near = m_world.findOverlapping(reachOf(proxy, min, max));
-    const std::size_t room = m_early.size() + near.size();
-    if (room > m_early.capacity()) m_early.reserve(std::max(room, 2 * m_early.capacity()));
+    m_early.reserve(near.size());
     return near;
   }
 
@@ -362,7 +362,7 @@ class BulletBroadphase : public btBroadphaseInterface {
       if (other == id || m_cache->findPair(&proxy, &m_proxies[other]) != nullptr) continue;
       const Pair pair{std::min(id, other), std::max(id, other)};
       if (m_cache->addOverlappingPair(&m_proxies[pair.first], &m_proxies[pair.second]) != nullptr) {
-        m_early.push_back(pair);
+        m_early.add(pair);
       }
     }
   }
@@ -388,10 +388,9 @@ class BulletBroadphase : public btBroadphaseInterface {
 
   /// Removes the pairs that ended, and those that were added early and are none.
   void removePairs(const StepResult& step, btDispatcher* dispatcher) {
-    std::sort(m_early.begin(), m_early.end());
-    m_early.erase(std::unique(m_early.begin(), m_early.end()), m_early.end());
+    m_early.sort();
     m_ended.assign(step.ended.begin(), step.ended.end());
-    for (const Pair& pair : m_early) {
+    for (const Pair& pair : m_early.pairs()) {
       if (!contains(step.pairs, pair) && !contains(step.ended, pair)) m_ended.push_back(pair);
     }
     std::sort(m_ended.begin(), m_ended.end());
@@ -493,7 +492,7 @@ class BulletBroadphase : public btBroadphaseInterface {
   bool m_isInStep = false;
   std::uint64_t m_changes = 0;    // of the own cache at the end of the last step
   internal::PairDigest m_wanted;  // of the pairs of the last step
-  std::vector<Pair> m_early;      // that were added to the cache since the last step
+  internal::EarlyPairs m_early;   // that were added to the cache since the last step
   std::vector<Pair> m_ended;
 };
 
