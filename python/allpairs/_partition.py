@@ -173,9 +173,10 @@ def join(
     names = _names_of("inputs", inputs)
     target = _output_of(output)
     options = _join_options(values)
-    options.work = _arguments.path_of("work", work) if work is not None else (target or names[0]) + ".work"
-    if not options.work:
+    folder = _arguments.path_of("work", work) if work is not None else (target or names[0]) + ".work"
+    if not folder:
         raise InvalidArgument("work is empty; it takes the path of a folder")
+    options.work = folder
     return JoinSummary(*_reading.join_files(names, target, options, _arguments.threads_of(threads)))
 
 
