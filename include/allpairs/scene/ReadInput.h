@@ -17,7 +17,7 @@ namespace allpairs::scene {
 /// Bad input: throws FileError.
 [[nodiscard]] Scene readInput(const std::filesystem::path& path, const ReadOptions& options = {});
 
-/// Reads a mesh file: OBJ, PLY, STL, OFF and glTF, and the formats that Assimp reads.
+/// Reads a mesh file: OBJ, PLY, STL, OFF, DXF and glTF, and the formats that Assimp reads.
 ///
 /// Each object, or node with a mesh, is a separate body: a model of its triangles, one of its lines and one of
 /// its points, as far as it has them. Models have the name in the file, else that of the file; a repeated name
