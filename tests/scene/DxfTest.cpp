@@ -256,6 +256,27 @@ TEST(Dxf, ThePaperSpaceIsPassedOverWithARemark) {
   EXPECT_EQ(scene.remarks[0].reason, "its paper space, of 4 entities, is passed over");
 }
 
+TEST(Dxf, HiddenEntitiesArePassedOverWithARemark) {
+  const std::string hidden =
+      " 0 POINT 60 1 10 9 20 9 30 9 0 POLYLINE 60 1 0 VERTEX 10 8 20 8 0 VERTEX 10 9 20 9 0 SEQEND"
+      " 0 3DSOLID 60 1 1 manm 0 TEXT 60 1 1 ROOM ";
+  const std::string shown = " 0 POINT 8 dots 60 0 10 1 20 2 30 3 ";
+  const auto remarksOf = [](const std::string& entities, const std::string& blocks = {}) {
+    const scene::Scene scene = readDrawing(drawing(blocks, entities));
+    EXPECT_EQ(elementsOf(scene), (DxfLines{"dots", "P 1 2 3 to 1 2 3"}));
+    EXPECT_TRUE(scene.warnings.empty());
+    std::vector<std::string> reasons;
+    for (const scene::Remark& remark : scene.remarks) reasons.push_back(remark.reason);
+    return reasons;
+  };
+  EXPECT_EQ(remarksOf(shown + hidden), DxfLines{"3 of its entities are hidden, and passed over"});
+  EXPECT_EQ(remarksOf(shown + "0 INSERT 60 1 2 B", dxfBlock("B", shown)),
+            DxfLines{"1 of its entities is hidden, and passed over"});
+  EXPECT_EQ(remarksOf("0 INSERT 2 B", dxfBlock("B", shown + hidden)),
+            DxfLines{"3 of its entities are hidden, and passed over"});
+  EXPECT_EQ(remarksOf(shown, dxfBlock("B", hidden)), DxfLines{});
+}
+
 TEST(Dxf, TheHeaderSaysTheUnit) {
   const auto unitOf = [](const std::string& header) {
     return readDrawing(groups("999 made-by-hand 0 SECTION 2 HEADER " + header + " 0 ENDSEC") + drawing("", kDxfFace))

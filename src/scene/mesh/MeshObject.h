@@ -91,7 +91,8 @@ struct FileNotes {
 /// Reads a drawing as text (DXF) in double: an object for each layer, of the lines, polylines, faces, polyface and
 /// polygon meshes, solids, traces and points of the model space, with the blocks in their places. What a block has in
 /// layer 0 is in the layer in which it is inserted. Arcs and other curves are missing, with a warning, as are blocks of
-/// other drawings; the paper space is passed over, with a note. Texts, dimensions and pictures are no shapes.
+/// other drawings; the paper space and hidden entities are passed over, with a note. Texts, dimensions and pictures are
+/// no shapes.
 ///
 /// Bad input: throws FileError with its line; so do binary files, and solids, surfaces and meshes of other kinds.
 /// Reference: AutoCAD 2012 DXF Reference, "ENTITIES Section" and "BLOCKS Section".

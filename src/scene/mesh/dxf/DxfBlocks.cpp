@@ -29,9 +29,12 @@ class DxfDrawing {
     }
   }
 
-  std::vector<MeshObject> show(std::vector<FileWarning>& warnings) {
+  std::vector<MeshObject> show(FileNotes& notes) {
     lookAtShown();
-    warn(warnings);
+    warn(notes.warnings);
+    if (m_hidden != 0)
+      notes.passedOver.push_back(
+          fmt::format("{} of its entities {} hidden, and passed over", m_hidden, m_hidden == 1 ? "is" : "are"));
     findShapes();
     addBlock(0, kIdentity, std::string(kLayerOfInsert), 0);
     if (m_shown.objects().empty() && !m_unread.empty())
@@ -63,6 +66,7 @@ class DxfDrawing {
       const DxfBlock& block = m_blocks[waiting.back()];
       waiting.pop_back();
       if (block.problemLine != 0) throw FileError(m_path, block.problem, block.problemLine);
+      m_hidden += block.hidden;
       for (const auto& [kind, count] : block.unread) m_unread[kind] += count;
       for (const DxfInsert& insert : block.inserts) {
         const std::size_t inner = blockNamed(insert.block);
@@ -169,6 +173,7 @@ class DxfDrawing {
   std::map<std::string, std::size_t> m_byName;
   std::map<std::string, std::size_t> m_byAnyCase;
   std::vector<bool> m_holdsShapes;
+  std::size_t m_hidden = 0;
   std::map<std::string, std::size_t> m_unread;
   std::vector<std::string> m_elsewhere;
   std::vector<std::string> m_undefined;
@@ -187,8 +192,8 @@ MeshObject& DxfLayers::of(std::string_view layer) {
 }
 
 std::vector<MeshObject> showDrawing(const std::vector<DxfBlock>& blocks, const Path& path, ReadScope& scope,
-                                    std::vector<FileWarning>& warnings) {
-  return DxfDrawing(blocks, path, scope).show(warnings);
+                                    FileNotes& notes) {
+  return DxfDrawing(blocks, path, scope).show(notes);
 }
 
 }  // namespace allpairs::scene

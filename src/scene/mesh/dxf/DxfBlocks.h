@@ -45,6 +45,7 @@ struct DxfBlock {
   Point base{};
   bool isElsewhere = false;  ///< Its content is in another drawing.
   std::vector<DxfInsert> inserts{};
+  std::size_t hidden = 0;                       ///< How many entities it does not show.
   std::map<std::string, std::size_t> unread{};  ///< How many of each kind of shape.
   std::size_t problemLine = 0;                  ///< Of the first shape without which the drawing is of no use.
   std::string problem{};
@@ -52,11 +53,11 @@ struct DxfBlock {
 };
 
 /// Shows the first block, which is the drawing itself, with the blocks in their places: an object for each layer. What a
-/// block has in layer 0 is in the layer in which the block is inserted. `warnings` gets what is missing.
+/// block has in layer 0 is in the layer in which the block is inserted. `notes` gets what is missing.
 ///
 /// Bad input: throws FileError where something shown has a problem, or blocks are in each other without end.
 [[nodiscard]] std::vector<MeshObject> showDrawing(const std::vector<DxfBlock>& blocks,
                                                   const std::filesystem::path& path, ReadScope& scope,
-                                                  std::vector<FileWarning>& warnings);
+                                                  FileNotes& notes);
 
 }  // namespace allpairs::scene

@@ -190,12 +190,14 @@ class DxfReader {
     if (kind == "VERTEX" && m_polyline) return m_vertices.push_back(entity);
     finishPolyline();
     const bool isPaper = m_block == 0 && entity.integer(67) == 1;
+    const bool isHidden = entity.integer(60) == 1;
     if (isPaper && !isAnnotation(kind)) ++m_paperEntities;
+    if (isHidden && !isPaper && !isAnnotation(kind)) ++block().hidden;
     if (kind == "POLYLINE") {
       m_polyline = entity;
-      m_isPaper = isPaper;
+      m_isPassedOver = isPaper || isHidden;
     }
-    if (isPaper || kind == "POLYLINE" || isAnnotation(kind)) return;
+    if (isPaper || isHidden || kind == "POLYLINE" || isAnnotation(kind)) return;
     if (kind == "INSERT") return addInsert(entity);
     if (kind == "3DFACE") return addFaceEntity(entity);
     if (kind == "SOLID" || kind == "TRACE") return addBand(entity);
@@ -345,7 +347,7 @@ class DxfReader {
     if (!m_polyline) return;
     const DxfEntity polyline = *std::exchange(m_polyline, std::nullopt);
     const std::vector<DxfEntity> vertices = std::exchange(m_vertices, {});
-    if (m_isPaper) return;
+    if (m_isPassedOver) return;
     const std::int64_t flags = polyline.integer(70);
     if ((flags & kIsPolyface) != 0) return addPolyface(polyline, vertices);
     std::vector<Vertex> path;
@@ -416,7 +418,7 @@ class DxfReader {
   std::size_t m_block = kNone;        ///< That is being read.
   std::optional<DxfEntity> m_polyline;
   std::vector<DxfEntity> m_vertices;  ///< Of the polyline.
-  bool m_isPaper = false;             ///< So is the polyline.
+  bool m_isPassedOver = false;        ///< So is the polyline.
   std::size_t m_paperEntities = 0;
   double m_metresPerUnit = 0.0;
   std::vector<std::uint32_t> m_corners;
@@ -435,7 +437,7 @@ std::vector<MeshObject> readDxfObjects(const Path& path, ReadScope& scope, FileN
   notes.frame = {.up = 3, .metresPerUnit = reader.metresPerUnit()};
   const std::size_t paper = reader.paperEntities();
   if (paper != 0) notes.passedOver.push_back(fmt::format("its paper space, of {} entities, is passed over", paper));
-  return showDrawing(reader.blocks(), path, scope, notes.warnings);
+  return showDrawing(reader.blocks(), path, scope, notes);
 }
 
 }  // namespace allpairs::scene
