@@ -295,6 +295,16 @@ TEST(Dxf, TextsMayHoldWhatLooksLikeGroups) {
   const std::string all = drawing("", kDxfFace);
   const std::size_t at = all.find("0\n3DFACE");
   EXPECT_EQ(elementsOf(readDrawing(std::string(all).insert(at, text))), (DxfLines{"walls", "T 1 2 3 to 5 9 4"}));
+TEST(Dxf, GroupsOfApplicationsAndCommentsAreNotThoseOfTheEntity) {
+  const std::string other = " 102 {APP 10 99 20 99 30 99 60 1 70 4 102 } 999 10 ";
+  EXPECT_EQ(elementsOf("0 POINT" + other + "10 1 20 2 30 3 1001 APP 1010 99 1020 99 1030 99 1070 1"),
+            (DxfLines{"0", "P 1 2 3 to 1 2 3"}));
+  EXPECT_EQ(elementsOf("0 LWPOLYLINE" + other + "10 1 999 10 20 2 10 3 20 4 102 {APP 10 99 102 } 8 behind"),
+            (DxfLines{"behind", "L 1 2 0 to 3 4 0"}));
+  EXPECT_EQ(elementsOf("0 POINT 10 4 20 5 30 6 102 {APP 0 POINT 10 1 20 2 30 3"),
+            (DxfLines{"0", "P 4 5 6 to 4 5 6", "P 1 2 3 to 1 2 3"}));
+}
+
 }
 
 TEST(Dxf, FilesCutBeforeTheirEndAreRefused) {

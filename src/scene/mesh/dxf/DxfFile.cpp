@@ -106,14 +106,18 @@ class DxfReader {
   void read() {
     DxfEntity entity(m_path, {}, 0);
     DxfGroup group;
+    bool isOfApplication = false;
     while (takeGroup(group)) {
       if (group.code == 0) {
+        isOfApplication = false;
         takeEntity(std::exchange(entity, DxfEntity(m_path, group.value, group.line)));
         m_scope.checkStop();
         if (group.value == "EOF") break;
       } else if (entity.kind().empty() && group.code != kComment) {
         throw FileError(m_path, "is no DXF file: it does not begin with a section", group.line);
-      } else {
+      } else if (group.code == kApplication) {
+        isOfApplication = group.value.starts_with('{');
+      } else if (!isOfApplication) {
         entity.add(group);
       }
     }
@@ -128,6 +132,7 @@ class DxfReader {
 
  private:
   static constexpr std::int64_t kComment = 999;
+  static constexpr std::int64_t kApplication = 102;  // begins or ends groups whose codes mean what an application likes
   static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 
   struct Vertex {
