@@ -124,6 +124,16 @@ TEST(Dxf, PolylinesHaveAllTheirPieces) {
             (DxfLines{"0", "L 0 0 6 to 4 0 6", "L 4 0 6 to 4 3 6", "L 0 0 6 to 4 3 6"}));
 }
 
+TEST(Dxf, OldFilesGiveZOnceAsTheElevation) {
+  EXPECT_EQ(elementsOf("0 LINE 38 5 10 1 20 2 11 3 21 4 0 LINE 38 5 10 1 20 2 30 6 11 3 21 4 31 7"),
+            (DxfLines{"0", "L 1 2 5 to 3 4 5", "L 1 2 6 to 3 4 7"}));
+  const std::string vertices = " 0 VERTEX 10 1 20 2 0 VERTEX 10 3 20 4 0 SEQEND";
+  EXPECT_EQ(elementsOf("0 POLYLINE 38 5" + vertices), (DxfLines{"0", "L 1 2 5 to 3 4 5"}));
+  EXPECT_EQ(elementsOf("0 POLYLINE 38 5 0 VERTEX 38 6 10 1 20 2 0 VERTEX 10 3 20 4 30 7 0 SEQEND"),
+            (DxfLines{"0", "L 1 2 6 to 3 4 7"}));
+  EXPECT_EQ(elementsOf("0 POLYLINE 70 8 38 5" + vertices), (DxfLines{"0", "L 1 2 0 to 3 4 0"}));
+}
+
 TEST(Dxf, MeshesOfPolylinesAreFacesBetweenRows) {
   const std::string rows =
       " 0 VERTEX 70 64 10 0 20 0 30 0 0 VERTEX 70 64 10 1 20 0 30 0 0 VERTEX 70 64 10 0 20 2 30 0"

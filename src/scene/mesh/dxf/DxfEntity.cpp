@@ -59,9 +59,11 @@ std::int64_t DxfEntity::integer(std::int64_t code, std::int64_t otherwise) const
 }
 
 Point DxfEntity::point(std::int64_t code) const {
-  const double z = has(code + kZ) ? number(code + kZ) : number(kElevation);
+  const double z = number(has(code + kZ) ? code + kZ : kElevation);
   return {number(code), number(code + kY), z};
 }
+
+bool DxfEntity::hasZ(std::int64_t code) const { return has(code + kZ) || has(kElevation); }
 
 Point DxfEntity::requiredPoint(std::int64_t code) const {
   if (!has(code) || !has(code + kY))

@@ -46,6 +46,9 @@ class DxfEntity {
   /// The same where it must be there.
   [[nodiscard]] Point requiredPoint(std::int64_t code) const;
 
+  /// Whether its z is given, in either way.
+  [[nodiscard]] bool hasZ(std::int64_t code) const;
+
   [[nodiscard]] double numberOf(const DxfGroup& group) const;
 
   /// From the entity's own coordinates to those of the block that it is in.

@@ -362,7 +362,8 @@ class DxfReader {
       if ((vertex.integer(70) & kIsControlPoint) != 0) continue;
       path.push_back({.position = vertex.point(10)});
       if (!isFlat) continue;
-      if (polyline.has(30)) path.back().position[2] = polyline.number(30);  // the elevation of all
+      const bool isOfAll = polyline.has(30) || !vertex.hasZ(10);
+      if (isOfAll) path.back().position[2] = polyline.point(10)[2];
       path.back().bulge = vertex.number(42);
       path.back().isWide =
           vertex.has(40) || vertex.has(41) ? vertex.number(40) != 0.0 || vertex.number(41) != 0.0 : isWide;
