@@ -264,6 +264,18 @@ TEST(Dxf, ThePaperSpaceIsPassedOverWithARemark) {
   ASSERT_EQ(scene.remarks.size(), 1U);
   EXPECT_EQ(scene.remarks[0].subject, "a.dxf");
   EXPECT_EQ(scene.remarks[0].reason, "its paper space, of 4 entities, is passed over");
+TEST(Dxf, BlocksOfTheModelSpaceAndThePaperSpaceAreTheDrawingItself) {
+  const std::string point = "0 POINT 8 dots 10 1 20 2 30 3";
+  for (const char* sign : {"*", "$"}) {
+    const std::string name = sign;
+    EXPECT_EQ(elementsOf("", dxfBlock(name + "Model_Space", point)), (DxfLines{"dots", "P 1 2 3 to 1 2 3"}));
+    const std::string papers = dxfBlock(name + "PAPER_SPACE", "") + dxfBlock(name + "Paper_Space0", point + " 0 TEXT") +
+                               dxfBlock(name + "Paper_Space12", point) + dxfBlock(name + "PAPER_SPACES", point);
+    const scene::Scene scene = readDrawing(drawing(papers, kDxfFace));
+    EXPECT_EQ(elementsOf(scene), (DxfLines{"walls", "T 1 2 3 to 5 9 4"}));
+    ASSERT_EQ(scene.remarks.size(), 1U);
+    EXPECT_EQ(scene.remarks[0].reason, "its paper space, of 2 entities, is passed over");
+  }
 }
 
 TEST(Dxf, HiddenEntitiesArePassedOverWithARemark) {

@@ -165,19 +165,33 @@ class DxfReader {
       finishPolyline();
       m_section.clear();
       m_block = kNone;
+      m_isPaperSpace = false;
     } else if (m_section == "BLOCKS" && kind == "BLOCK") {
       finishPolyline();
-      m_block = m_blocks.size();
-      constexpr std::int64_t kIsElsewhere = 4 | 8;
-      m_blocks.push_back({.name = std::string(entity.text(2)),
-                          .base = entity.point(10),
-                          .isElsewhere = (entity.integer(70) & kIsElsewhere) != 0});
+      beginBlock(entity);
     } else if (m_section == "BLOCKS" && kind == "ENDBLK") {
       finishPolyline();
       m_block = kNone;
+      m_isPaperSpace = false;
     } else if (m_block != kNone) {
       addEntity(entity);
     }
+  }
+
+  /// The model space and the paper space are blocks too, most often empty ones: what they show is in the section of
+  /// entities. Other layouts have theirs in blocks *Paper_Space0, *Paper_Space1, ...; R12 writes $ for the star.
+  void beginBlock(const DxfEntity& block) {
+    const std::string name = lowerCase(block.text(2));
+    m_isPaperSpace = isOneOf(withoutDigits(name), {"*paper_space", "$paper_space"});
+    if (m_isPaperSpace || isOneOf(name, {"*model_space", "$model_space"})) {
+      m_block = 0;
+      return;
+    }
+    m_block = m_blocks.size();
+    constexpr std::int64_t kIsElsewhere = 4 | 8;
+    m_blocks.push_back({.name = std::string(block.text(2)),
+                        .base = block.point(10),
+                        .isElsewhere = (block.integer(70) & kIsElsewhere) != 0});
   }
 
   /// Its variables are groups of the section.
@@ -194,7 +208,7 @@ class DxfReader {
     const std::string_view kind = entity.kind();
     if (kind == "VERTEX" && m_polyline) return m_vertices.push_back(entity);
     finishPolyline();
-    const bool isPaper = m_block == 0 && entity.integer(67) == 1;
+    const bool isPaper = m_block == 0 && (m_isPaperSpace || entity.integer(67) == 1);
     const bool isHidden = entity.integer(60) == 1;
     if (isPaper && !isAnnotation(kind)) ++m_paperEntities;
     if (isHidden && !isPaper && !isAnnotation(kind)) ++block().hidden;
@@ -422,6 +436,7 @@ class DxfReader {
   std::string m_section;
   std::vector<DxfBlock> m_blocks{1};  ///< The first is the drawing itself.
   std::size_t m_block = kNone;        ///< That is being read.
+  bool m_isPaperSpace = false;        ///< So is that block.
   std::optional<DxfEntity> m_polyline;
   std::vector<DxfEntity> m_vertices;  ///< Of the polyline.
   bool m_isPassedOver = false;        ///< So is the polyline.
