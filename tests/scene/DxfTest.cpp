@@ -253,6 +253,13 @@ TEST(Dxf, BlocksThatAreNotThereAreNamed) {
             DxfLines{"blocks that the file does not have are missing: 'B'"});
 }
 
+TEST(Dxf, BlocksOfTheSameNameAreNamedWhereOneIsShown) {
+  const std::string two = dxfBlock("B", "0 POINT 10 1 20 0 30 0") + dxfBlock("B", "0 POINT 8 last 10 2 20 0 30 0");
+  EXPECT_EQ(warningsOf(kDxfFace, two), DxfLines{});
+  EXPECT_EQ(warningsOf(kDxfInsert, two), DxfLines{"of blocks with the same name only the last is shown: 'B'"});
+  EXPECT_EQ(elementsOf(readDrawing(drawing(two, kDxfInsert))), (DxfLines{"last", "P 12 20 30 to 12 20 30"}));
+}
+
 TEST(Dxf, ThePaperSpaceIsPassedOverWithARemark) {
   const std::string paper =
       "0 LINE 67 1 10 100 20 100 30 0 11 200 21 100 31 0 0 POLYLINE 67 1 0 VERTEX 10 0 20 0 0 VERTEX 10 1 20 0 0 "

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <limits>
+#include <set>
 #include <utility>
 
 #include "allpairs/scene/FileError.h"
@@ -24,7 +25,7 @@ class DxfDrawing {
   DxfDrawing(const std::vector<DxfBlock>& blocks, const Path& path, ReadScope& scope)
       : m_blocks(blocks), m_path(path), m_scope(scope), m_holdsShapes(blocks.size()) {
     for (std::size_t i = 1; i < blocks.size(); ++i) {
-      m_byName[blocks[i].name] = i;
+      if (!m_byName.insert_or_assign(blocks[i].name, i).second) m_repeated.insert(blocks[i].name);
       m_byAnyCase[lowerCase(blocks[i].name)] = i;
     }
   }
@@ -75,6 +76,7 @@ class DxfDrawing {
         isShown[inner] = true;
         waiting.push_back(inner);
         const DxfBlock& found = m_blocks[inner];
+        if (m_repeated.contains(found.name)) m_lastOfName.push_back(found.name);
         if (found.isElsewhere && found.layers.objects().empty() && found.inserts.empty())
           m_elsewhere.push_back(found.name);
       }
@@ -97,6 +99,8 @@ class DxfDrawing {
       warnings.push_back({"shapes", "blocks of other drawings are not read, and missing: " + firstOf(m_elsewhere)});
     if (!m_undefined.empty())
       warnings.push_back({"shapes", "blocks that the file does not have are missing: " + firstOf(m_undefined)});
+    if (!m_lastOfName.empty())
+      warnings.push_back({"shapes", "of blocks with the same name only the last is shown: " + firstOf(m_lastOfName)});
   }
 
   /// Passes what holds shapes from blocks to those that they are in.
@@ -172,9 +176,11 @@ class DxfDrawing {
   ReadScope& m_scope;
   std::map<std::string, std::size_t> m_byName;
   std::map<std::string, std::size_t> m_byAnyCase;
+  std::set<std::string> m_repeated;  ///< Names that several blocks have.
   std::vector<bool> m_holdsShapes;
   std::size_t m_hidden = 0;
   std::map<std::string, std::size_t> m_unread;
+  std::vector<std::string> m_lastOfName;
   std::vector<std::string> m_elsewhere;
   std::vector<std::string> m_undefined;
   DxfLayers m_shown;
