@@ -314,6 +314,8 @@ TEST(Dxf, TheHeaderSaysTheUnit) {
   EXPECT_EQ(unitOf("9 $MEASUREMENT 70 6 9 $INSUNITS 70 4"), 0.001);
   EXPECT_EQ(unitOf("9 $INSUNITS 70 1"), 0.0254);
   EXPECT_EQ(unitOf("9 $INSUNITS 70 6"), 1.0);
+  EXPECT_EQ(unitOf("9 $INSUNITS 70 21"), 1200.0 / 3937);
+  EXPECT_EQ(unitOf("9 $INSUNITS 70 24"), 1200.0 / 3937 * 5280);
   EXPECT_EQ(unitOf("9 $INSUNITS 70 0"), std::nullopt);
   EXPECT_EQ(unitOf("9 $INSUNITS 70 99"), std::nullopt);
   EXPECT_EQ(unitOf("9 $MEASUREMENT 70 6"), std::nullopt);

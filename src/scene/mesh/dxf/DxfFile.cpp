@@ -28,6 +28,7 @@ using Path = std::filesystem::path;
 
 /// Metres for each number that $INSUNITS may be; 0 where it is unknown.
 double metresOf(std::int64_t unit) {
+  constexpr double kSurveyFoot = 1200.0 / 3937.0;
   static constexpr std::array kMetres{0.0,
                                       0.0254,
                                       0.3048,
@@ -49,7 +50,10 @@ double metresOf(std::int64_t unit) {
                                       149597870700.0,
                                       9460730472580800.0,
                                       3.0856775814913673e16,
-                                      1200.0 / 3937.0};
+                                      kSurveyFoot,
+                                      kSurveyFoot / 12.0,
+                                      kSurveyFoot * 3.0,
+                                      kSurveyFoot * 5280.0};
   const bool isKnown = unit > 0 && unit < static_cast<std::int64_t>(kMetres.size());
   return isKnown ? kMetres[static_cast<std::size_t>(unit)] : 0.0;
 }
