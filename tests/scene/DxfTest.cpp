@@ -226,6 +226,12 @@ TEST(Dxf, WhatIsNotReadIsNamedAndTextsAndUnusedBlocksAreNot) {
   EXPECT_EQ(warningsOf(face + curves), DxfLines{missing});
   EXPECT_EQ(warningsOf(face + kDxfInsert, dxfBlock("B", curves)), DxfLines{missing});
   expectDxfProblem(drawing("", curves), "holds no triangles, lines or points: " + missing);
+  std::string many;
+  for (int i = 10; i < 22; ++i) many += " 0 KIND" + std::to_string(i);
+  EXPECT_EQ(
+      warningsOf(face + many),
+      DxfLines{"12 of kinds that are not read are missing: KIND10, KIND11, KIND12, KIND13, KIND14, KIND15, KIND16, "
+               "KIND17, KIND18, KIND19 and 2 more"});
   for (const char* kind : {"3DSOLID", "BODY", "REGION", "MESH", "PLANESURFACE"}) {
     const std::string problem = ": '" + std::string(kind) + "' is not read; export 3DFACEs";
     expectDxfProblem(drawing("", face + "0 " + kind + " 1 manm"), "a.dxf:40" + problem);
@@ -373,6 +379,18 @@ TEST(Dxf, AFewWordsCannotAskForAllMemory) {
     blocks += dxfBlock("B" + std::to_string(i), inner + inner);
   }
   expectRefusal(drawing(blocks, "0 INSERT 2 B99"));
+  const auto often = [](const std::string& words) {
+    std::string text;
+    for (int i = 0; i < 50000; ++i) text += words;
+    return text;
+  };
+  const std::string empty = dxfBlock("E", "");
+  const std::string thousand = "0 INSERT 2 B 70 1000";
+  expectRefusal(drawing(empty + dxfBlock("B", kDxfFace + often("0 INSERT 2 E ")), thousand));
+  expectRefusal(drawing(often("0 BLOCK 2 B "), kDxfFace));
+  expectRefusal(drawing(empty, kDxfFace + often("0 INSERT 2 E ")));
+  expectRefusal(drawing("", kDxfFace + ("0 POLYLINE " + often("0 VERTEX 8 L 8 L 8 L "))));
+  expectRefusal(drawing("", kDxfFace + ("0 TEXT " + often("1 A 1 B 1 C 1 D "))));
 }
 
 }  // namespace

@@ -84,12 +84,15 @@ class DxfDrawing {
   }
 
   [[nodiscard]] std::string unread() const {
+    constexpr std::size_t kNamed = 10;
     std::size_t total = 0;
+    std::size_t named = 0;
     std::string kinds;
     for (const auto& [kind, count] : m_unread) {
       total += count;
-      kinds += (kinds.empty() ? "" : ", ") + kind;
+      if (named < kNamed) kinds += (named++ == 0 ? "" : ", ") + kind;
     }
+    if (m_unread.size() > named) kinds += fmt::format(" and {} more", m_unread.size() - named);
     return fmt::format("{} of kinds that are not read {} missing: {}", total, total == 1 ? "is" : "are", kinds);
   }
 
@@ -132,8 +135,9 @@ class DxfDrawing {
     if (depth > kDeepest)
       throw FileError(m_path, "the block " + quotedWord(block.name) + " is in itself, or in too many others");
     for (const MeshObject& object : block.layers.objects())
-      addObject(m_shown.of(object.name == kLayerOfInsert ? layer : object.name), object, transform);
+      addObject(m_shown.of(object.name == kLayerOfInsert ? layer : object.name, m_scope), object, transform);
     for (const DxfInsert& insert : block.inserts) {
+      m_scope.take(sizeof(DxfInsert));  // for the time: a few blocks in each other may ask for much of it
       const std::size_t inner = blockNamed(insert.block);
       if (inner == kNone || !m_holdsShapes[inner]) continue;
       const std::string& inserted = insert.layer == kLayerOfInsert ? layer : insert.layer;
@@ -188,9 +192,10 @@ class DxfDrawing {
 
 }  // namespace
 
-MeshObject& DxfLayers::of(std::string_view layer) {
+MeshObject& DxfLayers::of(std::string_view layer, ReadScope& scope) {
   auto found = m_places.find(layer);
   if (found == m_places.end()) {
+    scope.takeElements(1, sizeof(MeshObject) + layer.size());
     found = m_places.emplace(layer, m_objects.size()).first;
     m_objects.emplace_back().name = layer;
   }

@@ -30,7 +30,7 @@ struct DxfInsert {
 class DxfLayers {
  public:
   /// That of a layer, made where there is none.
-  [[nodiscard]] MeshObject& of(std::string_view layer);
+  [[nodiscard]] MeshObject& of(std::string_view layer, ReadScope& scope);
   [[nodiscard]] std::vector<MeshObject>& objects() { return m_objects; }
   [[nodiscard]] const std::vector<MeshObject>& objects() const { return m_objects; }
 

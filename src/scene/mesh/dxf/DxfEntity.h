@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -31,7 +32,13 @@ class DxfEntity {
   [[nodiscard]] std::string_view kind() const { return m_kind; }
   [[nodiscard]] std::size_t line() const { return m_line; }
   [[nodiscard]] const std::vector<DxfGroup>& groups() const { return m_groups; }
-  void add(const DxfGroup& group) { m_groups.push_back(group); }
+  void add(const DxfGroup& group) {
+    if (group.code == 8 && !m_layer) m_layer = group.value;
+    m_groups.push_back(group);
+  }
+
+  /// Its layer, which is asked for at each of its shapes.
+  [[nodiscard]] std::string_view layer() const { return m_layer.value_or("0"); }
 
   /// The value of the first group of that code; what is given where there is none.
   [[nodiscard]] std::string_view text(std::int64_t code, std::string_view otherwise = {}) const;
@@ -64,6 +71,7 @@ class DxfEntity {
   const std::filesystem::path* m_path;
   std::string_view m_kind;
   std::size_t m_line;
+  std::optional<std::string_view> m_layer;
   std::vector<DxfGroup> m_groups;
 };
 

@@ -122,6 +122,10 @@ class DxfReader {
       } else if (group.code == kApplication) {
         isOfApplication = group.value.starts_with('{');
       } else if (!isOfApplication) {
+        if (entity.groups().size() == m_mostGroups) {
+          m_scope.takeElements(1, sizeof(DxfGroup));
+          ++m_mostGroups;
+        }
         entity.add(group);
       }
     }
@@ -191,6 +195,7 @@ class DxfReader {
       m_block = 0;
       return;
     }
+    m_scope.takeElements(1, sizeof(DxfBlock));
     m_block = m_blocks.size();
     constexpr std::int64_t kIsElsewhere = 4 | 8;
     m_blocks.push_back({.name = std::string(block.text(2)),
@@ -210,7 +215,12 @@ class DxfReader {
 
   void addEntity(const DxfEntity& entity) {
     const std::string_view kind = entity.kind();
-    if (kind == "VERTEX" && m_polyline) return m_vertices.push_back(entity);
+    if (kind == "VERTEX" && m_polyline) {
+      m_scope.takeElements(1, sizeof(DxfEntity));
+      m_scope.take(entity.groups().size() * sizeof(DxfGroup));
+      m_vertices.push_back(entity);
+      return;
+    }
     finishPolyline();
     const bool isPaper = m_block == 0 && (m_isPaperSpace || entity.integer(67) == 1);
     const bool isHidden = entity.integer(60) == 1;
@@ -233,7 +243,7 @@ class DxfReader {
 
   DxfBlock& block() { return m_blocks[m_block]; }
 
-  MeshObject& objectOf(const DxfEntity& entity) { return block().layers.of(entity.text(8, "0")); }
+  MeshObject& objectOf(const DxfEntity& entity) { return block().layers.of(entity.layer(), m_scope); }
 
   void note(const DxfEntity& entity, std::string problem) {
     if (block().problemLine != 0) return;
@@ -245,6 +255,7 @@ class DxfReader {
     const auto count = [&entity](std::int64_t code) {
       return static_cast<std::uint64_t>(std::max<std::int64_t>(entity.integer(code, 1), 1));
     };
+    m_scope.takeElements(1, sizeof(DxfInsert));
     Transform scale = kIdentity;
     for (std::size_t axis = 0; axis < 3; ++axis)
       scale[axis][axis] = entity.number(41 + static_cast<std::int64_t>(axis), 1.0);
@@ -253,7 +264,7 @@ class DxfReader {
     const Point at = placed(entity.plane(), entity.point(10));
     for (std::size_t axis = 0; axis < 3; ++axis) place[axis][3] = at[axis];
     block().inserts.push_back({.block = std::string(entity.text(2)),
-                               .layer = std::string(entity.text(8, "0")),
+                               .layer = std::string(entity.layer()),
                                .place = place,
                                .columns = count(70),
                                .rows = count(71),
@@ -437,6 +448,7 @@ class DxfReader {
   const Path& m_path;
   ReadScope& m_scope;
   std::size_t m_line = 0;
+  std::size_t m_mostGroups = 0;  ///< Of an entity so far.
   std::string m_section;
   std::vector<DxfBlock> m_blocks{1};  ///< The first is the drawing itself.
   std::size_t m_block = kNone;        ///< That is being read.
