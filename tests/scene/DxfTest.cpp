@@ -277,6 +277,8 @@ TEST(Dxf, ThePaperSpaceIsPassedOverWithARemark) {
   ASSERT_EQ(scene.remarks.size(), 1U);
   EXPECT_EQ(scene.remarks[0].subject, "a.dxf");
   EXPECT_EQ(scene.remarks[0].reason, "its paper space, of 4 entities, is passed over");
+}
+
 TEST(Dxf, BlocksOfTheModelSpaceAndThePaperSpaceAreTheDrawingItself) {
   const std::string point = "0 POINT 8 dots 10 1 20 2 30 3";
   for (const char* sign : {"*", "$"}) {
@@ -323,6 +325,7 @@ TEST(Dxf, TheHeaderSaysTheUnit) {
   EXPECT_EQ(unitOf("9 $INSUNITS 70 21"), 1200.0 / 3937);
   EXPECT_EQ(unitOf("9 $INSUNITS 70 24"), 1200.0 / 3937 * 5280);
   EXPECT_EQ(unitOf("9 $INSUNITS 70 0"), std::nullopt);
+  EXPECT_EQ(unitOf("9 $INSUNITS 70 25"), std::nullopt);
   EXPECT_EQ(unitOf("9 $INSUNITS 70 99"), std::nullopt);
   EXPECT_EQ(unitOf("9 $MEASUREMENT 70 6"), std::nullopt);
 }
@@ -332,6 +335,8 @@ TEST(Dxf, TextsMayHoldWhatLooksLikeGroups) {
   const std::string all = drawing("", kDxfFace);
   const std::size_t at = all.find("0\n3DFACE");
   EXPECT_EQ(elementsOf(readDrawing(std::string(all).insert(at, text))), (DxfLines{"walls", "T 1 2 3 to 5 9 4"}));
+}
+
 TEST(Dxf, GroupsOfApplicationsAndCommentsAreNotThoseOfTheEntity) {
   const std::string other = " 102 {APP 10 99 20 99 30 99 60 1 70 4 102 } 999 10 ";
   EXPECT_EQ(elementsOf("0 POINT" + other + "10 1 20 2 30 3 1001 APP 1010 99 1020 99 1030 99 1070 1"),
@@ -342,6 +347,15 @@ TEST(Dxf, GroupsOfApplicationsAndCommentsAreNotThoseOfTheEntity) {
             (DxfLines{"0", "P 4 5 6 to 4 5 6", "P 1 2 3 to 1 2 3"}));
 }
 
+TEST(Dxf, NamesOfLayersMayHaveEscapedCharacters) {
+  const auto nameOf = [](const std::string& layer) {
+    return elementsOf("0 POINT 8 " + layer + " 10 1 20 2 30 3").at(0);
+  };
+  EXPECT_EQ(nameOf("W\\U+00E4nde\\U+20AC"), "W\u00e4nde\u20ac");
+  EXPECT_EQ(nameOf("\\U+d83d\\U+DE00"), "\U0001F600");
+  for (const char* name :
+       {"\\U+", "a\\U+00E", "\\U+00EG", "\\u+00E4", "U+00E4", "\\U+D83D", "\\U+DE00\\U+D83D", "\\U+0000", "\\U+000A"})
+    EXPECT_EQ(nameOf(name), name);
 }
 
 TEST(Dxf, FilesCutBeforeTheirEndAreRefused) {

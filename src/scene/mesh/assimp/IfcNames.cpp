@@ -2,13 +2,13 @@
 #include "mesh/assimp/IfcNames.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <utility>
 #include <vector>
 
+#include "input/Characters.h"
 #include "input/Words.h"
 
 namespace allpairs::scene {
@@ -17,25 +17,6 @@ namespace {
 constexpr std::size_t kIdLength = 22;
 
 bool isOfWord(char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_'; }
-
-void appendUtf8(std::string& to, std::uint32_t code) {
-  const auto tail = [&](unsigned shift) { to.push_back(static_cast<char>(0x80U | ((code >> shift) & 0x3FU))); };
-  if (code < 0x80) {
-    to.push_back(static_cast<char>(code));
-  } else if (code < 0x800) {
-    to.push_back(static_cast<char>(0xC0U | (code >> 6U)));
-    tail(0);
-  } else if (code < 0x10000) {
-    to.push_back(static_cast<char>(0xE0U | (code >> 12U)));
-    tail(6);
-    tail(0);
-  } else {
-    to.push_back(static_cast<char>(0xF0U | (code >> 18U)));
-    tail(12);
-    tail(6);
-    tail(0);
-  }
-}
 
 /// Takes a string of a STEP file apart.
 class StepDecoder {
@@ -61,7 +42,7 @@ class StepDecoder {
     if (m_text.starts_with("\\X2\\")) return takeCodes(4);
     if (m_text.starts_with("\\X4\\")) return takeCodes(8);
     if (m_text.starts_with("\\X\\")) {
-      const std::optional<std::uint32_t> code = hexAt(3, 2);
+      const std::optional<std::uint32_t> code = hexAt(m_text, 3, 2);
       if (code) take(*code, 5);
       return code.has_value();
     }
@@ -82,12 +63,12 @@ class StepDecoder {
     std::uint32_t high = 0;  // of two that are one character
     std::size_t at = 4;
     for (; m_text.substr(std::min(at, m_text.size()), 4) != "\\X0\\"; at += digits) {
-      const std::optional<std::uint32_t> code = hexAt(at, digits);
+      const std::optional<std::uint32_t> code = hexAt(m_text, at, digits);
       if (!code || *code > 0x10FFFF) return false;
-      const bool isHigh = *code >= 0xD800 && *code < 0xDC00;
-      const bool isLow = *code >= 0xDC00 && *code < 0xE000;
+      const bool isHigh = isHighHalf(*code);
+      const bool isLow = isLowHalf(*code);
       if (isLow != (high != 0)) return false;
-      if (isLow) appendUtf8(decoded, 0x10000 + ((high - 0xD800) << 10U) + (*code - 0xDC00));
+      if (isLow) appendUtf8(decoded, joinHalves(high, *code));
       if (!isLow && !isHigh) appendUtf8(decoded, *code);
       high = isHigh ? *code : 0;
     }
@@ -95,14 +76,6 @@ class StepDecoder {
     m_result += decoded;
     m_text.remove_prefix(at + 4);
     return true;
-  }
-
-  [[nodiscard]] std::optional<std::uint32_t> hexAt(std::size_t at, std::size_t digits) const {
-    if (m_text.size() < at + digits) return std::nullopt;
-    std::uint32_t code = 0;
-    const char* const first = m_text.data() + at;
-    const auto [end, problem] = std::from_chars(first, first + digits, code, 16);
-    return problem == std::errc() && end == first + digits ? std::optional(code) : std::nullopt;
   }
 
   std::string_view m_text;

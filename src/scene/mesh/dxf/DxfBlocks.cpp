@@ -4,11 +4,16 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <set>
+#include <string>
+#include <string_view>
 #include <utility>
 
 #include "allpairs/scene/FileError.h"
+#include "input/Characters.h"
 #include "input/Words.h"
 
 namespace allpairs::scene {
@@ -18,6 +23,33 @@ using Path = std::filesystem::path;
 
 /// The layer whose shapes are those of the layer in which their block is inserted.
 constexpr std::string_view kLayerOfInsert = "0";
+
+/// The name of a layer in UTF-8, where it has characters as \U+00E4. What is no such character stays as it is.
+std::string decodedDxf(std::string_view text) {
+  constexpr std::string_view kBegin = "\\U+";
+  constexpr std::uint32_t kFirstPrinted = 0x20;
+  constexpr std::size_t kDigits = 4;
+  constexpr std::size_t kLength = kBegin.size() + kDigits;
+  const auto codeAt = [&](std::size_t at) {
+    const bool isThere = at < text.size() && text.substr(at).starts_with(kBegin);
+    return isThere ? hexAt(text, at + kBegin.size(), kDigits).value_or(0) : 0;
+  };
+  std::string decoded;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::uint32_t code = codeAt(at);
+    const std::uint32_t next = isHighHalf(code) ? codeAt(at + kLength) : 0;
+    if (isLowHalf(next)) {
+      appendUtf8(decoded, joinHalves(code, next));
+      at += 2 * kLength;
+    } else if (code >= kFirstPrinted && !isHighHalf(code) && !isLowHalf(code)) {
+      appendUtf8(decoded, code);
+      at += kLength;
+    } else {
+      decoded.push_back(text[at++]);
+    }
+  }
+  return decoded;
+}
 
 /// Puts blocks in their places.
 class DxfDrawing {
@@ -40,6 +72,7 @@ class DxfDrawing {
     addBlock(0, kIdentity, std::string(kLayerOfInsert), 0);
     if (m_shown.objects().empty() && !m_unread.empty())
       throw FileError(m_path, "holds no triangles, lines or points: " + unread());
+    for (MeshObject& object : m_shown.objects()) object.name = decodedDxf(object.name);
     return std::move(m_shown.objects());
   }
 
