@@ -354,10 +354,11 @@ class DxfReader {
 
   void addFlatPolyline(const DxfEntity& entity) {
     std::vector<Vertex> path;
+    const double elevation = entity.number(38);
     const bool isWide = entity.number(43) != 0.0;
     for (const DxfGroup& group : entity.groups()) {
       if (group.code == 10)
-        path.push_back({.position = {entity.numberOf(group), 0.0, entity.number(38)}, .isWide = isWide});
+        path.push_back({.position = {entity.numberOf(group), 0.0, elevation}, .isWide = isWide});
       if (path.empty()) continue;
       Vertex& vertex = path.back();
       if (group.code == 20) vertex.position[1] = entity.numberOf(group);
@@ -387,12 +388,13 @@ class DxfReader {
     std::vector<Vertex> path;
     const bool isFlat = (flags & (kIsInSpace | kIsMesh)) == 0;
     const bool isWide = isFlat && (polyline.number(40) != 0.0 || polyline.number(41) != 0.0);
+    const double elevation = polyline.point(10)[2];
+    const bool isOfAll = polyline.has(30);
     for (const DxfEntity& vertex : vertices) {
       if ((vertex.integer(70) & kIsControlPoint) != 0) continue;
       path.push_back({.position = vertex.point(10)});
       if (!isFlat) continue;
-      const bool isOfAll = polyline.has(30) || !vertex.hasZ(10);
-      if (isOfAll) path.back().position[2] = polyline.point(10)[2];
+      if (isOfAll || !vertex.hasZ(10)) path.back().position[2] = elevation;
       path.back().bulge = vertex.number(42);
       path.back().isWide =
           vertex.has(40) || vertex.has(41) ? vertex.number(40) != 0.0 || vertex.number(41) != 0.0 : isWide;
