@@ -101,10 +101,24 @@ TEST(Dxf, SolidsAndTracesHaveTheirLastCornersExchangedAndMayBeThick) {
   EXPECT_EQ(elementsOf("0 SOLID" + corners + " 13 1 23 1 33 5"), quad);
   EXPECT_EQ(elementsOf("0 TRACE" + corners + " 13 1 23 1 33 5"), quad);
   EXPECT_EQ(elementsOf("0 SOLID" + corners), (DxfLines{"0", "T 0 0 5 to 4 2 5"}));
+  EXPECT_EQ(elementsOf("0 SOLID" + corners + " 13 0 23 2 33 5"), (DxfLines{"0", "T 0 0 5 to 4 2 5"}));
   EXPECT_EQ(elementsOf("0 SOLID" + corners + " 39 2"),
             (DxfLines{"0", "T 0 0 5 to 4 2 5", "T 0 0 5 to 4 0 7", "T 0 0 5 to 4 0 7", "T 0 0 5 to 4 2 7",
                       "T 0 0 5 to 4 2 7", "T 0 0 5 to 0 2 7", "T 0 0 5 to 0 2 7", "T 0 0 7 to 4 2 7"}));
   EXPECT_EQ(elementsOf("0 SOLID" + corners + " 210 0 220 0 230 -1"), (DxfLines{"0", "T -4 0 -5 to 0 2 -5"}));
+}
+
+TEST(Dxf, LinesAndPointsMayBeThickAlongTheirExtrusion) {
+  EXPECT_EQ(elementsOf("0 LINE 39 2 210 1 220 0 230 0 10 1 20 2 30 3 11 1 21 5 31 3"),
+            (DxfLines{"0", "T 1 2 3 to 3 5 3", "T 1 2 3 to 3 5 3"}));
+  EXPECT_EQ(elementsOf("0 POINT 39 -2 210 0 220 1 230 0 10 1 20 2 30 3"), (DxfLines{"0", "L 1 0 3 to 1 2 3"}));
+  EXPECT_EQ(elementsOf("0 LINE 230 -1 10 1 20 2 30 3 11 1 21 5 31 3"), (DxfLines{"0", "L 1 2 3 to 1 5 3"}));
+}
+
+TEST(Dxf, TheAxesOfAnExtrusionNearZAreThoseOfY) {
+  const std::string lwpolyline = "0 LWPOLYLINE 10 1 20 0 210 0 230 1 220 ";
+  EXPECT_EQ(elementsOf(lwpolyline + "0.0156"), (DxfLines{"0", "P 1 0 0 to 1 0 0"}));
+  EXPECT_EQ(elementsOf(lwpolyline + "0.0157"), (DxfLines{"0", "P -1 0 0 to -1 0 0"}));
 }
 
 TEST(Dxf, PolylinesHaveAllTheirPieces) {
@@ -122,6 +136,13 @@ TEST(Dxf, PolylinesHaveAllTheirPieces) {
             (DxfLines{"0", "L 0 0 1 to 4 0 1", "L 4 0 1 to 4 3 2"}));
   EXPECT_EQ(elementsOf("0 LWPOLYLINE 38 6 90 3 70 1 10 0 20 0 10 4 20 0 10 4 20 3"),
             (DxfLines{"0", "L 0 0 6 to 4 0 6", "L 4 0 6 to 4 3 6", "L 0 0 6 to 4 3 6"}));
+  EXPECT_EQ(elementsOf("0 LWPOLYLINE 70 0 0 LWPOLYLINE 70 1 0 LWPOLYLINE 70 1 10 1 20 2"),
+            (DxfLines{"0", "P 1 2 0 to 1 2 0"}));
+  EXPECT_EQ(elementsOf("0 POLYLINE 70 8 230 -1" + vertices), (DxfLines{"0", "L 0 0 1 to 4 0 1", "L 4 0 1 to 4 3 2"}));
+  const std::string open = "0 POLYLINE 70 8 0 VERTEX 10 1 20 0 30 0 0 VERTEX 10 2 20 0 30 0";  // without its end
+  EXPECT_EQ(elementsOf(open + " 0 POINT 10 5 20 5 " + open),
+            (DxfLines{"0", "L 1 0 0 to 2 0 0", "L 1 0 0 to 2 0 0", "0#2", "P 5 5 0 to 5 5 0"}));
+  EXPECT_EQ(elementsOf("0 INSERT 2 B", dxfBlock("B", open) + dxfBlock("A", "")), (DxfLines{"0", "L 1 0 0 to 2 0 0"}));
 }
 
 TEST(Dxf, OldFilesGiveZOnceAsTheElevation) {
@@ -158,6 +179,7 @@ TEST(Dxf, PolyfaceMeshesMayHideEdges) {
   EXPECT_EQ(elementsOf(face("71 1 72 -2 73 3")), (DxfLines{"walls", "T 0 0 0 to 4 3 1"}));
   EXPECT_EQ(elementsOf(face("71 -1 72 2 73 3 74 -4")), (DxfLines{"walls", "T 0 0 0 to 4 3 1", "T 0 0 0 to 4 3 9"}));
   EXPECT_EQ(elementsOf(face("71 2 72 4 73 0 74 0")), (DxfLines{"walls", "L 0 0 0 to 4 3 9"}));
+  EXPECT_EQ(elementsOf(face("8 roof 71 1 72 2 73 3")), (DxfLines{"roof", "T 0 0 0 to 4 3 1"}));
   for (const char* index : {"5", "-5", "9223372036854775807", "-9223372036854775808"})
     expectDxfProblem(drawing("", face(std::string("71 1 72 2 73 ") + index)),
                      "a.dxf:58: index " + std::string(index) + " names no vertex: the POLYLINE has 4");
@@ -179,6 +201,7 @@ TEST(Dxf, BlocksAreShownWhereTheyAreInserted) {
   EXPECT_EQ(inserted("70 2 71 2 44 100 45 1000 41 2"),
             (DxfLines{"axes", "L 12 22 33 to 20 22 34", "L 112 22 33 to 120 22 34", "L 12 1022 33 to 20 1022 34",
                       "L 112 1022 33 to 120 1022 34"}));
+  EXPECT_EQ(inserted("70 0 71 -3 44 100 45 1000"), (DxfLines{"axes", "L 11 22 33 to 15 22 34"}));
   EXPECT_EQ(inserted("70 2 44 100 50 90"), (DxfLines{"axes", "L 8 21 33 to 8 25 34", "L 8 121 33 to 8 125 34"}));
   expectDxfProblem(drawing(dxfBlock("B", line), std::string(kDxfInsert) + "210 0 220 0 230 0"),
                    "its extrusion has no direction");
@@ -244,6 +267,9 @@ TEST(Dxf, ArcsAndWidthsOfPolylinesAreNamedAndTheirOtherPiecesRead) {
   EXPECT_EQ(warningsOf(flat),
             DxfLines{"2 of kinds that are not read are missing: arcs of LWPOLYLINE, widths of LWPOLYLINE"});
   EXPECT_EQ(elementsOf(readDrawing(drawing("", flat))), (DxfLines{"0", "L 4 0 0 to 4 3 0"}));
+  EXPECT_EQ(warningsOf("0 LWPOLYLINE 43 1 10 0 20 0 10 4 20 0"),
+            DxfLines{"1 of kinds that are not read is missing: widths of LWPOLYLINE"});
+  EXPECT_EQ(warningsOf("0 POLYLINE 70 8 40 1 0 VERTEX 10 0 20 0 30 0 0 VERTEX 10 4 20 0 30 0 0 SEQEND"), DxfLines{});
   const std::string vertices = " 0 VERTEX 10 0 20 0 0 VERTEX 10 4 20 0 42 -1 40 0 41 0 0 VERTEX 10 4 20 3 0 SEQEND";
   EXPECT_EQ(warningsOf("0 POLYLINE 40 1 41 1" + vertices),
             DxfLines{"2 of kinds that are not read are missing: arcs of POLYLINE, widths of POLYLINE"});
@@ -253,6 +279,8 @@ TEST(Dxf, BlocksThatAreNotThereAreNamed) {
   const std::string face = kDxfFace;
   const std::string elsewhere = "0 BLOCK 2 B 70 4 10 0 20 0 30 0 1 other.dwg 0 ENDBLK";
   EXPECT_EQ(warningsOf(face + kDxfInsert, elsewhere),
+            DxfLines{"blocks of other drawings are not read, and missing: 'B'"});
+  EXPECT_EQ(warningsOf(face + kDxfInsert, "0 BLOCK 2 B 70 8 0 ENDBLK"),
             DxfLines{"blocks of other drawings are not read, and missing: 'B'"});
   EXPECT_EQ(warningsOf(face, elsewhere), DxfLines{});
   EXPECT_EQ(warningsOf(face + kDxfInsert + kDxfInsert),
