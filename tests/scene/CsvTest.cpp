@@ -68,37 +68,62 @@ TEST(Csv, AHeaderMayNumberTheColumnsBehindTheName) {
   EXPECT_EQ(readText(",0,1,2,3,4,6\n"), (std::vector<Named>{{"0", {{0, 1, 2}, {3, 4, 6}}}})) << "a box without a name";
 }
 
+/// The warnings of a file that are not of one box: "line: reason" each.
+std::string csvWarnings(const std::string& text) {
+  const TempFolder folder;
+  const auto path = folder.write("boxes.csv", text);
+  std::string lines;
+  for (const scene::Remark& warning : scene::boxWarnings(scene::readCsv(path), path)) {
+    EXPECT_EQ(warning.file, path);
+    EXPECT_EQ(warning.subject, "");
+    lines += std::to_string(warning.line) + ": " + warning.reason + '\n';
+  }
+  return lines;
+}
+
 TEST(Csv, LinesThatMayNotBeWhatTheyAreTakenForAreNamed) {
-  const auto warningsOf = [](const std::string& text) {
-    const TempFolder folder;
-    const auto path = folder.write("boxes.csv", text);
-    std::string lines;
-    for (const scene::Remark& warning : scene::boxWarnings(scene::readCsv(path), path)) {
-      EXPECT_EQ(warning.file, path);
-      EXPECT_EQ(warning.subject, "");
-      lines += std::to_string(warning.line) + ": " + warning.reason + '\n';
-    }
-    return lines;
-  };
   const std::string comment =
       "begins with #, and is passed over as a comment; if it is a box, put its name in quotes\n";
   const std::string box = "a,0,0,0,1,1,1\n";
-  EXPECT_EQ(warningsOf(box + "\n#1,0,0,0,1,1,1\n"), "3: " + comment);
-  EXPECT_EQ(warningsOf("#1,0,0,0,1,1,1\n" + box), "1: " + comment);
-  EXPECT_EQ(warningsOf("name,minx,miny,minz,maxx,maxy,maxz\n#1,0,0,0,1,1,1\n\n#2,0,0,0,1,1,1\n#3,0,0,0,1,1,1\n"),
+  EXPECT_EQ(csvWarnings(box + "\n#1,0,0,0,1,1,1\n"), "3: " + comment);
+  EXPECT_EQ(csvWarnings("#1,0,0,0,1,1,1\n" + box), "1: " + comment);
+  EXPECT_EQ(csvWarnings("name,minx,miny,minz,maxx,maxy,maxz\n#1,0,0,0,1,1,1\n\n#2,0,0,0,1,1,1\n#3,0,0,0,1,1,1\n"),
             "0: holds no boxes\n2: begins with #, and is passed over as a comment, as are 2 other lines; if they are "
             "boxes, put their names in quotes\n");
-  EXPECT_EQ(warningsOf(box + "#1,0,0,0,1,1,1\n#1,0,0,0,1,1,1\n"),
+  EXPECT_EQ(csvWarnings(box + "#1,0,0,0,1,1,1\n#1,0,0,0,1,1,1\n"),
             "2: begins with #, and is passed over as a comment, as is 1 other line; if they are boxes, put their names "
             "in quotes\n");
-  EXPECT_EQ(warningsOf(box + "# a,0,0,0,1,1,1\n#a,0,0,0,1,1\n#a,0,0,0,1,1,x\n#\"a\",0,0,0,1,1,1\n\"#1\",0,0,0,1,1,1\n"),
-            "");
-  EXPECT_EQ(warningsOf("0,0,0,1,1,1\n#0,0,0,1,1,1\n"), "") << "without names it can only be a comment";
-  EXPECT_EQ(warningsOf("0,1,2,3,4,5\n0.0,0.0,0.0,1.0,1.0,1.0\n"),
+  EXPECT_EQ(
+      csvWarnings(box + "# a,0,0,0,1,1,1\n#a,0,0,0,1,1\n#a,0,0,0,1,1,x\n#\"a\",0,0,0,1,1,1\n\"#1\",0,0,0,1,1,1\n"), "");
+  EXPECT_EQ(csvWarnings("0,0,0,1,1,1\n#0,0,0,1,1,1\n"), "") << "without names it can only be a comment";
+  EXPECT_EQ(csvWarnings("#1,0,0,0,1,1,1\n0,0,0,1,1,1\n"), "") << "nor can it be a box where names are missing below";
+  EXPECT_EQ(csvWarnings("#1,0,0,0,1,1,1\n0,0,0,1,1,1,a\n"), "") << "or stand last";
+  EXPECT_EQ(csvWarnings("0,1,2,3,4,5\n0.0,0.0,0.0,1.0,1.0,1.0\n"),
             "1: 0,1,2,3,4,5 is taken for a box; if it numbers the columns, remove it\n");
-  EXPECT_EQ(warningsOf("0,0,0,1,1,1\n0,1,2,3,4,5\n"), "");
-  EXPECT_EQ(warningsOf("0.0,1,2,3,4,5\n"), "");
-  EXPECT_EQ(warningsOf("minx,miny,minz,maxx,maxy,maxz\n0,1,2,3,4,5\n"), "");
+  for (const char* numbers : {"name,0,1,2,3,4,5\n", "0,1,2,3,4,5,name\n"})
+    EXPECT_EQ(csvWarnings(numbers), "1: 0,1,2,3,4,5 is taken for a box; if it numbers the columns, remove it\n");
+  EXPECT_EQ(csvWarnings(",0,1,2,3,4,5\n" + box), "");
+  EXPECT_EQ(csvWarnings("0,0,0,1,1,1\n0,1,2,3,4,5\n"), "");
+  EXPECT_EQ(csvWarnings("0.0,1,2,3,4,5\n"), "");
+  EXPECT_EQ(csvWarnings("minx,miny,minz,maxx,maxy,maxz\n0,1,2,3,4,5\n"), "");
+}
+
+TEST(Csv, CommentsThatNameTheColumnsInAnotherOrderAndAreNoHeaderAreNamed) {
+  const std::string reason =
+      ": names columns in another order than boxes are read in, and is passed over as a comment; a header has "
+      "commas, and a name for each column\n";
+  const std::string boxes = "0,0,0,1,1,1\n0,0,0,1,1,1\n";
+  for (const char* comment : {"# xmin xmax ymin ymax zmin zmax", "#xmin;xmax;ymin;ymax;zmin;zmax",
+                              "# xmin\txmax\tymin\tymax\tzmin\tzmax", "# columns: xmin,xmax,ymin,ymax,zmin,zmax",
+                              R"(# "xmin","xmax","ymin","ymax","zmin","zmax")", "# xmin,xmax,ymin,ymax,zmin,zmax,name"})
+    EXPECT_EQ(csvWarnings("\n" + std::string(comment) + '\n' + boxes), "2" + reason) << comment;
+  EXPECT_EQ(csvWarnings("# Min X,Max X,Min Y,Max Y,Min Z,Max Z\na,0,0,0,1,1,1\n"), "1" + reason);
+  for (const char* comment :
+       {"# minx miny minz maxx maxy maxz", "# minx,miny,minz,maxx,maxy,maxz,name", "# xmin xmax ymin ymax zmin",
+        "# xmin xmax ymin ymax zmin zmax zmax", "# (xmin, xmax, ymin, ymax, zmin, zmax)",
+        "# xmin,xmax,ymin,ymax,zmin,zmax", "# xmin xmax ymin ymax zmin zmax\nminx,miny,minz,maxx,maxy,maxz"})
+    EXPECT_EQ(csvWarnings(std::string(comment) + '\n' + boxes), "") << comment;
+  EXPECT_EQ(csvWarnings(boxes + "# xmin xmax ymin ymax zmin zmax\n"), "") << "behind the first box";
 }
 
 TEST(Csv, CommentsBlankLinesBlanksAndOtherLineEndsArePassedOver) {

@@ -102,7 +102,8 @@ class BoxArray {
 ///
 /// The first or the last column may be a name. A first line that names the columns may put them in another order, also
 /// as a comment, if as many columns follow; one that numbers those behind the name, as pandas does, is none of boxes.
-/// Empty lines and lines that begin with # are skipped; a note tells of one that may be a box with such a name.
+/// Empty lines and lines that begin with # are skipped; notes tell of one that may be a box with such a name, and of one
+/// that names the columns in another order but is no header.
 /// Bad input: throws FileError with line and column; also for a file that is not text, such as UTF-16.
 [[nodiscard]] BoxArray readCsv(const std::filesystem::path& path);
 

@@ -98,6 +98,20 @@ bool namesColumns(const std::vector<CsvField>& fields) {
   return others <= 1 && std::all_of(counts.begin(), counts.end(), [](std::size_t count) { return count == 1; });
 }
 
+/// Whether words of a comment name each coordinate once, but not in the order in which boxes are read.
+bool namesOtherOrder(std::string_view comment) {
+  const auto separates = [](char c) {
+    return isBlank(c) || std::string_view(",;:\"'()[]").find(c) != std::string::npos;
+  };
+  std::vector<std::size_t> order;
+  for (auto word = takeWord(comment, separates); !word.empty(); word = takeWord(comment, separates)) {
+    if (const std::optional<std::size_t> coordinate = coordinateOf(word)) order.push_back(*coordinate);
+  }
+  std::vector<std::size_t> sorted = order;
+  std::sort(sorted.begin(), sorted.end());
+  return sorted == std::vector<std::size_t>{0, 1, 2, 3, 4, 5} && order != sorted;
+}
+
 /// Whether fields number the columns from 0 to 5, as pandas does where they have no names.
 bool numbersColumns(std::span<const CsvField> fields) {
   std::size_t number = 0;
@@ -150,7 +164,7 @@ class CsvReader {
     const std::size_t size = m_values.size() / kCoordinates;
     BoxTable<double> table{std::make_unique_for_overwrite<double[]>(m_values.size()), size};
     std::copy(m_values.begin(), m_values.end(), table.values.get());
-    if (m_boxLikeComments > 0) noteComments();
+    if (m_boxLikeComments > 0 && (m_layout.columns == 0 || m_layout.name == 0)) noteComments();
     return {std::move(table), m_place.file.filename().string(), std::move(m_names), std::move(m_notes)};
   }
 
@@ -166,17 +180,25 @@ class CsvReader {
       m_layout = m_commented;
     } else {
       m_layout = layoutOfData(m_fields, m_place);
-      if (numbersColumns(fields))
+      if (!hasNumbers && numbersColumns(fields.subspan(m_layout.coordinates[0], kCoordinates)))
         m_notes.push_back({m_place.line, "0,1,2,3,4,5 is taken for a box; if it numbers the columns, remove it"});
+      if (m_otherOrder > 0)
+        m_notes.push_back({m_otherOrder,
+                           "names columns in another order than boxes are read in, and is passed over as a comment; a "
+                           "header has commas, and a name for each column"});
     }
     return isHeader || hasNumbers;
   }
 
   /// It may name the columns, or be a box whose name begins with #. What programs put into quotes is neither.
   void readComment(std::string_view text) {
+    if (m_layout.columns == 0 && namesOtherOrder(text)) m_otherOrder = m_place.line;
     if (text.find('"') != std::string_view::npos) return;
     splitCsvLine(text, m_place, m_fields);
-    if (m_layout.columns == 0 && namesColumns(m_fields)) m_commented = layoutOfHeader(m_fields, m_place);
+    if (m_layout.columns == 0 && namesColumns(m_fields)) {
+      m_commented = layoutOfHeader(m_fields, m_place);
+      m_otherOrder = std::is_sorted(m_commented.coordinates.begin(), m_commented.coordinates.end()) ? 0 : m_place.line;
+    }
     const bool isName = !text.empty() && !isBlank(text.front()) && m_fields.size() == kCoordinates + 1 &&
                         (m_layout.columns == 0 || m_layout.name == 0);
     if (isName && std::all_of(m_fields.begin() + 1, m_fields.end(), isCsvNumber) && m_boxLikeComments++ == 0)
@@ -208,7 +230,8 @@ class CsvReader {
   std::size_t m_breaks = 0;  ///< In the last line.
   ReadScope& m_scope;
   CsvLayout m_layout;
-  CsvLayout m_commented;  ///< Of the last comment that names the columns.
+  CsvLayout m_commented;         ///< Of the last comment that names the columns.
+  std::size_t m_otherOrder = 0;  ///< The line of a comment that names them in another order than boxes are read in.
   std::size_t m_boxLikeComments = 0;
   std::size_t m_firstBoxLike = 0;  ///< The line of the first of them.
   std::vector<LineNote> m_notes;
