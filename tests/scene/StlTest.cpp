@@ -156,6 +156,10 @@ TEST(StlMesh, TheWordsOfASolidMayStandInOneLine) {
   EXPECT_EQ(namesOf(readStl("solid a\ncolor 1 0 0 " + facet + "\n" + far + "endsolid\n")), "a TTriangleModel 2\n");
   EXPECT_EQ(namesOf(readStl("solid normal facet\n" + facet + "\nendsolid normal facet\n")),
             "normal facet TTriangleModel 1\n");
+  for (const std::string name : {"facet normal", "a facet normal map"})
+    EXPECT_EQ(namesOf(readStl("solid " + name + '\n' + facet + "\nendsolid " + name + "\n")),
+              name + " TTriangleModel 1\n");
+  EXPECT_EQ(namesOf(readStl("solid a facet " + facet + "endsolid a facet")), "a facet TTriangleModel 1\n");
   const std::string both = "solid a\n" + facet + "\nendsolid a solid b " + far + "endsolid b\n";
   expectStlProblem(both, "mesh.stl:3: a facet stands behind the end of a solid");
   expectStlProblem("solid a\n" + facet + "endsolid a solid b " + far + "endsolid b\n",

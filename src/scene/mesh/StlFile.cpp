@@ -78,14 +78,15 @@ std::vector<MeshObject> readBinary(std::string_view text, const Path& path, Read
   return {std::move(object)};
 }
 
-/// Where in a line a facet begins, or its length: behind the name of a solid, which may be any words but these two.
+/// Where in a line a facet begins, or its length: behind the name of a solid, which may be any words but "facet normal"
+/// with a number.
 std::size_t facetIn(std::string_view line) {
-  std::size_t begin = line.size();
   std::string_view rest = line;
   for (auto word = takeWord(rest, isBlank); !word.empty(); word = takeWord(rest, isBlank)) {
-    const std::string keyword = lowerCase(word);
-    if (keyword == "normal" && begin < line.size()) return begin;
-    begin = keyword == "facet" ? static_cast<std::size_t>(word.data() - line.data()) : line.size();
+    if (lowerCase(word) != "facet") continue;
+    std::string_view next = rest;
+    if (lowerCase(takeWord(next, isBlank)) == "normal" && parseNumber(takeWord(next, isBlank)))
+      return static_cast<std::size_t>(word.data() - line.data());
   }
   return line.size();
 }
@@ -104,11 +105,30 @@ class TextReader {
   }
 
  private:
+  /// The words of a facet may stand in one line or in several.
   void readLine(std::string_view line) {
-    std::string_view rest = line;
-    const std::string keyword = lowerCase(takeWord(rest));
-    if (keyword == "solid") return readWords(beginSolid(rest));
-    readWords(keyword == "color" ? rest.substr(facetIn(rest)) : line);
+    bool isFirst = true;
+    for (auto word = takeWord(line); !word.empty(); word = takeWord(line), isFirst = false) {
+      const std::string keyword = lowerCase(word);
+      if (isFirst && keyword == "solid") {
+        line = beginSolid(line);
+      } else if (isFirst && keyword == "color") {
+        line.remove_prefix(facetIn(line));
+      } else if (keyword == "vertex") {
+        addPosition(line);
+      } else if (keyword == "facet") {
+        requireCorners(0);
+        while (!word.empty() && lowerCase(word) != "outer") word = takeWord(line);  // the normal means nothing
+      } else if (keyword == "endfacet") {
+        requireCorners(3);
+        addTriangle(m_objects.back());
+        m_corners = 0;
+      } else if (keyword == "endsolid") {
+        return endSolid(line);
+      } else if (keyword != "outer" && keyword != "loop" && keyword != "endloop") {
+        fail(quotedWord(word) + " is no word of STL");
+      }
+    }
   }
 
   /// Returns what stands behind its name.
@@ -125,27 +145,6 @@ class TextReader {
     requireCorners(0);
     if (facetIn(name) < name.size()) fail("a facet stands behind the end of a solid, in one line");
     m_isInSolid = false;
-  }
-
-  /// Those of a facet may stand in one line or in several.
-  void readWords(std::string_view line) {
-    for (auto word = takeWord(line); !word.empty(); word = takeWord(line)) {
-      const std::string keyword = lowerCase(word);
-      if (keyword == "vertex") {
-        addPosition(line);
-      } else if (keyword == "facet") {
-        requireCorners(0);
-        while (!word.empty() && lowerCase(word) != "outer") word = takeWord(line);  // the normal means nothing
-      } else if (keyword == "endfacet") {
-        requireCorners(3);
-        addTriangle(m_objects.back());
-        m_corners = 0;
-      } else if (keyword == "endsolid") {
-        return endSolid(line);
-      } else if (keyword != "outer" && keyword != "loop" && keyword != "endloop") {
-        fail(quotedWord(word) + " is no word of STL");
-      }
-    }
   }
 
   void requireCorners(std::size_t count) const {
