@@ -15,12 +15,9 @@ std::string_view takePart(std::string_view& corner) {
   return part;
 }
 
-/// Without the comment that may follow the numbers of a statement, which begins with `statement`.
-std::string_view withoutComment(std::string_view line, std::string_view statement) {
-  const std::size_t sign = line.find('#');
-  const bool hasNumbers =
-      sign != std::string_view::npos && isOneOf(takeWord(statement, isBlank), {"v", "vn", "vp", "vt", "f", "l", "p"});
-  return hasNumbers ? trimmed(line.substr(0, sign)) : line;
+/// Whether numbers follow the first word of a statement, in which # is no letter.
+bool hasNumbers(std::string_view statement) {
+  return isOneOf(takeWord(statement, isBlank), {"v", "vn", "vp", "vt", "f", "l", "p"});
 }
 
 }  // namespace
@@ -28,15 +25,18 @@ std::string_view withoutComment(std::string_view line, std::string_view statemen
 /// Calls visit(line, number) for each line, without the blanks around it.
 template <class Visit>
 void ObjParser::forEachLine(std::string_view text, const Visit& visit) const {
+  const std::string_view all = text;
+  std::size_t sign = m_syntax.endsInComments ? all.find('#') : std::string_view::npos;  // the next
   std::string joined;
   for (std::size_t number = 1; !text.empty(); ++number) {
     std::string_view line = trimmed(takeLine(text));
+    const auto begin = static_cast<std::size_t>(line.data() - all.data());
+    if (sign < begin) sign = all.find('#', begin);
     const bool isComment = joined.empty() && line.starts_with('#');  // which may end in the name of a folder
     bool isBetween = false;                                          // a comment between the lines of one statement
-    if (m_syntax.endsInComments && !isComment) {
-      const std::string_view content = withoutComment(line, joined.empty() ? line : joined);
-      isBetween = content.empty() && !line.empty();
-      line = content;
+    if (sign < begin + line.size() && !isComment && hasNumbers(joined.empty() ? line : joined)) {
+      line = trimmed(line.substr(0, sign - begin));
+      isBetween = line.empty();
     }
     const bool isContinued = !isComment && line.ends_with('\\');
     const bool goesOn = m_syntax.joinsLines && (isContinued || isBetween) && !text.empty();
