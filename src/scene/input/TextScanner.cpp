@@ -11,7 +11,9 @@
 namespace allpairs::scene {
 
 TextScanner::TextScanner(const std::filesystem::path& path, const StopFlag* stop)
-    : TextScanner(path, readText(path, stop), stop) {}
+    : TextScanner(path, readText(path, stop), stop) {
+  refuseUtf16(m_text, path);
+}
 
 TextScanner::TextScanner(const std::filesystem::path& path, std::string text, const StopFlag* stop)
     : m_path(path), m_text(std::move(text)), m_stop(stop) {}

@@ -282,6 +282,18 @@ TEST_F(SofaGraph, AttributesNeedNoBlankBetweenThem) {
     EXPECT_THAT(complaint(bad), HasSubstr("XML")) << bad;
 }
 
+/// As Windows PowerShell writes what `php -f SCENE.pscn` prints.
+TEST_F(SofaGraph, AScenePrintedIntoAFileOfUtf16IsNamed) {
+  std::string little = "\xff\xfe";
+  std::string big = "\xfe\xff";
+  for (const char c : std::string("<Node name='a'/>")) {
+    little += {c, '\0'};
+    big += {'\0', c};
+  }
+  for (const std::string& text : {little, big})
+    EXPECT_THAT(complaint(text), testing::EndsWith("scene.scn: is a text in UTF-16; UTF-8 can be read"));
+}
+
 TEST_F(SofaGraph, AnAttributeThatIsGivenTwiceIsAnErrorAsInSofa) {
   EXPECT_THAT(complaint("<Node>\n<MechanicalObject position='1 2 3' position='4 5 6'/><PointModel/></Node>"),
               HasSubstr("scene.scn:2: not well-formed XML: two attributes of an element have the same name"));

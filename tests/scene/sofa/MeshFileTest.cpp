@@ -33,6 +33,12 @@ class SofaMeshFile : public SceneTest {
   }
 };
 
+TEST_F(SofaMeshFile, Utf16IsNamed) {
+  const std::string little("\xff\xfeO\0F\0F\0", 8);
+  for (const std::string name : {"a.obj", "a.off", "a.trian", "a.sph", "a.msh", "a.vtk", "a.vtu"})
+    EXPECT_THAT(problem(name, little), testing::EndsWith(name + ": is a text in UTF-16; UTF-8 can be read"));
+}
+
 TEST_F(SofaMeshFile, AStopEndsTheReadingOfEveryKind) {
   std::string plain, obj, spheres, gmsh;
   for (int i = 0; i < 200; ++i) {

@@ -85,6 +85,7 @@ struct SourceFile {
       : path(std::make_shared<const std::filesystem::path>(file)),
         text(withAttributesApart(readText(file, stop))),
         lines(text) {
+    refuseUtf16(text, file);
     const auto result = document.load_buffer(text.data(), text.size());
     if (result.status == pugi::status_out_of_memory) throw std::bad_alloc();
     if (!result) {

@@ -117,6 +117,7 @@ class ObjReader final : ObjParser {
 
 Mesh readObj(const std::filesystem::path& path, const ObjOptions& options, const StopFlag* stop) {
   const std::string text = readText(path, stop);
+  refuseUtf16(text, path);
   return ObjReader(path, options, stop).read(text);
 }
 

@@ -229,6 +229,7 @@ class XmlVtkReader {
 Mesh readVtk(const std::filesystem::path& path, XmlSurfaces surfaces, const StopFlag* stop) {
   constexpr std::size_t kStart = 4096;
   std::string text = readText(path, stop);
+  refuseUtf16(text, path);
   if (text.starts_with("# vtk DataFile")) return LegacyVtkReader(path, std::move(text), stop).read();
   if (std::string_view{text}.substr(0, kStart).find("<VTKFile") != std::string_view::npos)
     return XmlVtkReader(path, text, surfaces, stop).read();
