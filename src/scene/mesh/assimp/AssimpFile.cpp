@@ -445,6 +445,9 @@ std::string importInChild(const Path& path, ReadScope& scope) {
   }
 }
 
+/// Versions differ in what they read.
+bool assimpKnows(const std::string& extension) { return Assimp::Importer().IsExtensionSupported(extension.c_str()); }
+
 }  // namespace
 
 std::string_view whyNotRead(const Path& path) {
@@ -466,13 +469,15 @@ std::string_view whyNotRead(const Path& path) {
       reasons[extension] = kOfOthers;
     return reasons;
   }();
-  const auto found = kReasons.find(lowerExtension(path));
-  return found == kReasons.end() ? std::string_view() : found->second;
+  const std::string extension = lowerExtension(path);
+  const auto found = kReasons.find(extension);
+  const bool isRead = found == kReasons.end() || (found->second == kOfOthers && assimpKnows(extension));
+  return isRead ? std::string_view() : found->second;
 }
 
 bool isAssimpFile(const Path& path) {
   const std::string extension = lowerExtension(path);
-  return !extension.empty() && whyNotRead(path).empty() && Assimp::Importer().IsExtensionSupported(extension.c_str());
+  return !extension.empty() && whyNotRead(path).empty() && assimpKnows(extension);
 }
 
 std::vector<MeshObject> readAssimpObjects(const Path& path, ReadScope& scope, FileNotes& notes) {
