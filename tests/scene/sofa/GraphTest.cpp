@@ -225,6 +225,20 @@ TEST_F(SofaGraph, AnIncludeRenamesAComponent) {
   EXPECT_THAT(boxOf(scene.models.at(1)), IsBox(Corners{1, 2, 3, 1, 2, 3}));
 }
 
+TEST_F(SofaGraph, AnIncludeNamesWhatHasNoNameInItsFile) {
+  write("part.xml", "<Node><MechanicalObject position='1 2 3'/><PointModel name='p'/></Node>");
+  write("state.xml", "<MechanicalObject position='4 5 6'/>");
+  for (const auto sofa : {SofaVersion::Sofa2006, SofaVersion::Sofa2612}) {
+    m_sofa = sofa;
+    const auto scene = readIn(
+        "<include href='part.xml' name='P'/><Node name='N'><include href='state.xml' name='s'/></Node>"
+        "<Node name='Q'><MechanicalObject position='@../N/s.position'/><PointModel name='q'/></Node>");
+    EXPECT_THAT(pathsOf(scene), ElementsAre("/P/p", "/Q/q"));
+    EXPECT_THAT(boxOf(scene.models.at(1)), IsBox(Corners{4, 5, 6, 4, 5, 6}));
+  }
+  EXPECT_THAT(pathsOf(readIn("<include href='part.xml' name=''/>")), ElementsAre("/p")) << "nor has it one then";
+}
+
 TEST_F(SofaGraph, FilesAreBesideTheSceneOfTheNodeThatNamesThem) {
   write("mesh.obj", "v 1 1 1\n");
   write("sub/mesh.obj", "v 7 7 7\n");

@@ -259,6 +259,7 @@ class ElementReader {
     if (name == "href") return;
     if (name == "name") {
       included.name = value;
+      included.isNamed = !value.empty();
       included.splice = spliceOf(value);
     } else if (const auto split = name.find("__"); split != std::string_view::npos && split > 0) {
       setReplacement(included, {name.substr(split + 2), value, name.substr(0, split)}, m_scope);
