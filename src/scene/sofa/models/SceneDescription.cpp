@@ -157,9 +157,11 @@ void warnOf(const PipelineParts& parts, const Node& root, SceneDescription& scen
 void warnOfOwnRules(Evaluation& evaluation, const Component& detection, bool anySelfCollision) {
   const bool isOld = evaluation.generation() == Generation::Sofa20;
   if (detection.type.starts_with("Incr") || (isOld && detection.type == "DirectSAP"))
-    evaluation.warn(detection,
-                    "SOFA compares the boxes of elements with this component, without contact distances and without "
-                    "groups across nodes; here the models' boxes are tested by the rules of BruteForceBroadPhase");
+    evaluation.warn(
+        detection,
+        "SOFA compares the boxes of elements with this component, without contact distances, without groups "
+        "across nodes and whatever its box is; here the models' boxes are tested by the rules of "
+        "BruteForceBroadPhase");
   if (isOld && detection.type == "RayTraceDetection" && anySelfCollision)
     evaluation.warn(
         detection,
