@@ -123,6 +123,30 @@ TEST_F(SofaModel, HasWhatOldSofaKnowsOfItWhereThatIsAskedFor) {
                             HasSubstr("/tPointModel1: its contactDistance is not read, as in SOFA before 25.12")}));
 }
 
+TEST_F(SofaModel, WhatOldSofaDoesNotReadIsSaidOnceAndOnlyWhereItCounts) {
+  m_sofa = SofaVersion::Sofa2006;
+  const auto reasonsFor = [&](const std::string& models) {
+    std::vector<std::string> reasons;
+    for (const auto& warning :
+         readIn("<CollisionPipeline/><BruteForceDetection/>" + std::string{kMesh} + models).warnings)
+      reasons.push_back(warning.subject + ": " + warning.reason);
+    return reasons;
+  };
+  const std::string given = "<PointModel contactDistance='0.125'/>";
+  const std::string flat = "<TriangleModel useCurvature='1'/>";
+  EXPECT_THAT(reasonsFor("<PointModel contactDistance='0.0'/><TriangleModel useCurvature='false'/>"
+                         "<PointModel contactDistance='0.125' proximity='0.25'/>"),
+              IsEmpty());
+  EXPECT_THAT(reasonsFor(given),
+              ElementsAre("/tPointModel1: its contactDistance is not read, as in SOFA before 25.12, which calls it "
+                          "proximity"));
+  EXPECT_THAT(reasonsFor(flat + given + flat + given + given),
+              ElementsAre("/tTriangleModel1: its useCurvature is not read, as in SOFA before 20.12; nor is that of 1 "
+                          "other model",
+                          "/tPointModel1: its contactDistance is not read, as in SOFA before 25.12, which calls it "
+                          "proximity; nor is that of 2 other models"));
+}
+
 TEST_F(SofaModel, AGroupThatIsComputedAndNoNumberIsAnError) {
   EXPECT_THAT(complaintIn("<TransformEngine name='t' input_position='1e300 1e300 1e300' scale='1e300 1e300 1e300' "
                           "rotation='0 0 45'/><MechanicalObject/><PointModel group='@t.output_position'/>"),

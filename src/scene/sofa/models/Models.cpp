@@ -261,25 +261,15 @@ ModelShape shapeOf(ComponentKind kind) {
   }
 }
 
-/// Whether a model is given a data that came with a newer SOFA than the one that was asked for, which does not read it.
-bool isNewData(Evaluation& evaluation, const Component& model, std::string_view name, std::string_view since) {
-  if (!model.attributes.has(name)) return false;
-  evaluation.warn(model, "its " + std::string{name} + " is not read, as in SOFA before " + std::string{since});
-  return true;
-}
-
 void describeRules(Evaluation& evaluation, const Component& component, ModelDescription& model) {
   model.active = evaluation.flag(component, "active", true);
   model.simulated = evaluation.flag(component, "simulated", true);
   model.moving = evaluation.flag(component, "moving", true);
   model.selfCollision = evaluation.flag(component, "selfCollision", false);
   const bool isOld = evaluation.hasOldDistances();
-  if (!isOld || !isNewData(evaluation, component, "useCurvature", "20.12"))
-    model.useCurvature = evaluation.flag(component, "useCurvature", false);
-  if (isOld && isNewData(evaluation, component, "contactDistance", "25.12, which has proximity"))
-    model.contactDistance = evaluation.number(component, {"proximity"}, 0);
-  else
-    model.contactDistance = evaluation.number(component, {"contactDistance", "proximity"}, 0);
+  model.useCurvature = !isOld && evaluation.flag(component, "useCurvature", false);
+  model.contactDistance = isOld ? evaluation.number(component, {"proximity"}, 0)
+                                : evaluation.number(component, {"contactDistance", "proximity"}, 0);
   if (const auto groups = evaluation.numbers(component, {"group"}, 1))
     for (const double group : groups->values) {
       if (!(std::abs(group) <= std::numeric_limits<int>::max()))

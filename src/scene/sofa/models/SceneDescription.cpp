@@ -178,6 +178,27 @@ void warnOfNewDistances(Evaluation& evaluation, const Component& method) {
                     "if 20.06 is asked for");
 }
 
+/// Says, once of each, which data of models came with a newer SOFA than the one that was asked for, which does not read
+/// them, if that makes a difference.
+void warnOfNewData(Evaluation& evaluation, const Node& root, const ModelList& models) {
+  if (!evaluation.hasOldDistances()) return;
+  const auto warn = [&](const std::string& name, const std::string& reason, const auto& isMissed) {
+    auto missed = modelsBelow(root);
+    std::erase_if(missed, [&](const Component* model) { return !models.has(*model) || !isMissed(model->attributes); });
+    if (missed.empty()) return;
+    std::string text = "its " + name + " is not read, as in SOFA before " + reason;
+    if (const auto others = missed.size() - 1; others != 0)
+      text += fmt::format("; nor is that of {} other model{}", others, others == 1 ? "" : "s");
+    evaluation.warn(*missed.front(), std::move(text));
+  };
+  warn("useCurvature", "20.12",
+       [](const Attributes& given) { return parseBool(given.value("useCurvature")).value_or(false); });
+  warn("contactDistance", "25.12, which calls it proximity", [](const Attributes& given) {
+    return given.has("contactDistance") && !given.has("proximity") &&
+           parseWholeFloat(given.value("contactDistance")) != 0.0;
+  });
+}
+
 PipelineDescription describePipeline(Evaluation& evaluation, const PipelineParts& parts, ModelList& models) {
   PipelineDescription pipeline;
   if (parts.component != nullptr) pipeline.path = parts.component->path();
@@ -257,6 +278,7 @@ SceneDescription describeScene(const std::filesystem::path& path, const ReadOpti
     scene.pipelines.push_back(describePipeline(evaluation, parts, models));
     warnOf(parts, *root, scene);
   }
+  warnOfNewData(evaluation, *root, models);
   warnOfActivation(*root, scene);
   std::set<std::string> seen;
   warnOfNames(*root, generation, seen, scene);
