@@ -232,5 +232,26 @@ TEST_F(GhostTest, ThatIsACharacterIsHitByRaysInItsOwnBoxOnly) {
   EXPECT_THAT(hits({-9, above, 0}, {9, above, 0}), ::testing::IsEmpty()) << "its box in the world is still enlarged";
 }
 
+TEST(BulletCharacter, WithAnEmptyBoxHasNoPairsAlsoWithinTheMargin) {
+  btDefaultCollisionConfiguration configuration;
+  btCollisionDispatcher dispatcher(&configuration);
+  btGhostObject character;
+  character.setCollisionFlags(btCollisionObject::CF_CHARACTER_OBJECT);
+  btCollisionObject body;
+  BulletBroadphase broadphase({.characterMargin = 1});
+  auto* const around = broadphase.createProxy({-9, -9, -9}, {9, 9, 9}, 0, &body, 1, -1, &dispatcher);
+  auto* const empty = broadphase.createProxy({btScalar(0.5), 0, 0}, {0, 1, 1}, 0, &character, 1, -1, &dispatcher);
+  const auto pairs = [&] {
+    broadphase.calculateOverlappingPairs(&dispatcher);
+    return pairsOf(*broadphase.getOverlappingPairCache());
+  };
+  EXPECT_THAT(pairs(), ::testing::IsEmpty());
+  broadphase.setAabb(empty, {0, 0, 0}, {1, 1, 1}, &dispatcher);
+  EXPECT_THAT(pairs(), ::testing::SizeIs(1));
+  broadphase.setAabb(empty, {0, 0, 0}, {1, -1, 1}, &dispatcher);
+  EXPECT_THAT(pairs(), ::testing::IsEmpty());
+  for (auto* proxy : {around, empty}) broadphase.destroyProxy(proxy, &dispatcher);
+}
+
 }  // namespace
 }  // namespace allpairs::test

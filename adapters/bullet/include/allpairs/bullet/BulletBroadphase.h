@@ -290,11 +290,10 @@ class BulletBroadphase : public btBroadphaseInterface {
     return proxy.isGhost || m_immediatePairs == ImmediatePairs::All;
   }
 
-  /// Where a proxy has pairs: around characters, else in its box.
+  /// Where a proxy has pairs: around characters, else in its box; nowhere if that is empty.
   [[nodiscard]] Box reachOf(const Proxy& proxy, const btVector3& min, const btVector3& max) const {
     if (!isCharacter(proxy)) return internal::toBox(min, max);
-    const btVector3 margin(m_characterMargin, m_characterMargin, m_characterMargin);
-    return internal::toBox(min - margin, max + margin);
+    return internal::toWidenedBox(min, max, m_characterMargin);
   }
 
   /// What hits the reach of a character need not hit its box, or does so later.

@@ -23,6 +23,14 @@ namespace allpairs::internal {
 
 [[nodiscard]] inline Box toBox(const btVector3& min, const btVector3& max) { return {toArray(min), toArray(max)}; }
 
+/// With a margin on all sides, unless it is empty.
+[[nodiscard]] inline Box toWidenedBox(const btVector3& min, const btVector3& max, btScalar margin) {
+  const Box box = toBox(min, max);
+  if (isEmpty(box)) return box;
+  const btVector3 more(margin, margin, margin);
+  return toBox(min - more, max + more);
+}
+
 [[nodiscard]] inline bool isFinite(const std::array<double, 3>& x) {
   return std::isfinite(x[0]) && std::isfinite(x[1]) && std::isfinite(x[2]);
 }
