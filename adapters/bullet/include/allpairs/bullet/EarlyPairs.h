@@ -10,7 +10,7 @@
 namespace allpairs::internal {
 
 /// Pairs that are added between two steps. Where proxies come and go, the same one may be added any number of times:
-/// they take twice the memory of those that differ, or less.
+/// there is room for no more than twice those that differ, or for those and what was asked for at once.
 class EarlyPairs {
  public:
   /// Makes room for so many more: add() of these needs no memory.
