@@ -357,8 +357,7 @@ class DxfReader {
     const double elevation = entity.number(38);
     const bool isWide = entity.number(43) != 0.0;
     for (const DxfGroup& group : entity.groups()) {
-      if (group.code == 10)
-        path.push_back({.position = {entity.numberOf(group), 0.0, elevation}, .isWide = isWide});
+      if (group.code == 10) path.push_back({.position = {entity.numberOf(group), 0.0, elevation}, .isWide = isWide});
       if (path.empty()) continue;
       Vertex& vertex = path.back();
       if (group.code == 20) vertex.position[1] = entity.numberOf(group);
