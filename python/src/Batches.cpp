@@ -9,6 +9,7 @@
 
 #include "Gil.h"
 #include "Interrupts.h"
+#include "allpairs/Error.h"
 
 namespace allpairs::python {
 namespace py = pybind11;

@@ -11,6 +11,7 @@
 #include "Interrupts.h"
 #include "LoadedScene.h"
 #include "PairArray.h"
+#include "allpairs/Error.h"
 
 namespace allpairs::python {
 namespace py = pybind11;
