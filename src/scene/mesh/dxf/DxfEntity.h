@@ -23,7 +23,7 @@ struct DxfGroup {
 
 /// An entity of a DXF, or what else begins with group 0: its kind and its groups, within the text of the file.
 ///
-/// Bad input: values that are no numbers where numbers are asked for throw FileError with their line.
+/// Bad input: asking for a number where the value is none throws FileError with its line.
 class DxfEntity {
  public:
   DxfEntity(const std::filesystem::path& path, std::string_view kind, std::size_t line)
