@@ -17,10 +17,6 @@ constexpr std::int64_t kZ = 20;
 constexpr std::int64_t kElevation = 38;
 constexpr std::int64_t kExtrusion = 210;
 
-Point cross(const Point& a, const Point& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
 Point unit(const Point& a) {
   const double length = std::hypot(a[0], a[1], a[2]);
   return {a[0] / length, a[1] / length, a[2] / length};

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <numbers>
 #include <optional>
 #include <span>
 #include <string>
@@ -96,8 +97,9 @@ bool isSolid(std::string_view kind) {
 /// A transform that turns around z by an angle in degrees: exactly, where that is a multiple of 90.
 Transform turn(double degrees) {
   const double angle = std::remainder(degrees, 360.0);
-  double sine = std::sin(angle * (3.14159265358979323846 / 180.0));
-  double cosine = std::cos(angle * (3.14159265358979323846 / 180.0));
+  const double radians = angle * (std::numbers::pi / 180.0);
+  double sine = std::sin(radians);
+  double cosine = std::cos(radians);
   if (angle == 0.0 || std::abs(angle) == 180.0) sine = 0.0;
   if (std::abs(angle) == 90.0) cosine = 0.0;
   return {{{cosine, -sine, 0.0, 0.0}, {sine, cosine, 0.0, 0.0}, {0.0, 0.0, 1.0, 0.0}}};

@@ -52,19 +52,19 @@ std::optional<Crossing> LineCaster::cross(std::size_t triangle, const Vec3& orig
   const auto& t = m_surface.triangles[triangle];
   const auto& corner = m_surface.positions[t[0]];
   const Vec3 first = m_surface.positions[t[1]] - corner, second = m_surface.positions[t[2]] - corner;
-  const Vec3 p = sofa::cross(direction, second);
+  const Vec3 p = scene::cross(direction, second);
   const double determinant = dot(first, p);
   if (std::abs(determinant) <= kEpsilon) return std::nullopt;
   const double inverse = 1 / determinant;
   const Vec3 from = origin - corner;
   const double u = dot(from, p) * inverse;
   if (u < -kEpsilon || u > 1 + kEpsilon) return std::nullopt;
-  const Vec3 q = sofa::cross(from, first);
+  const Vec3 q = scene::cross(from, first);
   const double v = dot(direction, q) * inverse;
   if (v < -kEpsilon || u + v > 1 + kEpsilon) return std::nullopt;
   const double at = dot(second, q) * inverse;
   if (!(at >= kEpsilon)) return std::nullopt;
-  return Crossing{at, dot(sofa::cross(first, second), direction) < 0 ? -1 : 1};
+  return Crossing{at, dot(scene::cross(first, second), direction) < 0 ? -1 : 1};
 }
 
 }  // namespace allpairs::scene::sofa

@@ -9,6 +9,7 @@
 #include <span>
 
 #include "allpairs/Box.h"
+#include "mesh/Transform.h"
 
 namespace allpairs::scene::sofa {
 
@@ -19,9 +20,6 @@ using Vec3 = std::array<double, 3>;
 [[nodiscard]] constexpr Vec3 operator*(const Vec3& a, double s) { return {a[0] * s, a[1] * s, a[2] * s}; }
 [[nodiscard]] constexpr Vec3 scaled(const Vec3& a, const Vec3& s) { return {a[0] * s[0], a[1] * s[1], a[2] * s[2]}; }
 [[nodiscard]] constexpr double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-[[nodiscard]] constexpr Vec3 cross(const Vec3& a, const Vec3& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
 [[nodiscard]] inline double lengthOf(const Vec3& a) { return std::sqrt(dot(a, a)); }
 [[nodiscard]] inline bool isFinite(const Vec3& a) {
   return std::isfinite(a[0]) && std::isfinite(a[1]) && std::isfinite(a[2]);
