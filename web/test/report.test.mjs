@@ -268,3 +268,18 @@ test("a BCF that is not beside the page is said to be missing", async () => {
   await page.waitForFunction(() => document.querySelector(".problem").textContent.startsWith("Not saved"));
   await page.close();
 });
+
+test("on paper, which does not scroll, the table and long comments are whole", { skip }, async () => {
+  const name = (i) => `part_${i}_of_the_assembly`;
+  const parts = [0, 1, 2].map((i) => cuboid(name(i), [123456 + i / 4, 0, 0], [123457 + i / 4, 1, 1])).join("");
+  const page = await report("printed", [write("printed.obj", parts)]);
+  await page.locator("figure textarea").first().fill("Move it to the other side of the wall, and ask who built that. ".repeat(20));
+  await page.setViewportSize({ width: 718, height: 1047 }); // what Chromium leaves of A4 at 96 dots per inch
+  await page.emulateMedia({ media: "print" });
+  const cut = await page.$$eval("th, td", (cells) => cells.filter((cell) => cell.getBoundingClientRect().right > innerWidth || cell.scrollWidth > cell.clientWidth).map((cell) => cell.textContent));
+  assert.deepEqual(cut, []);
+  assert.deepEqual(await page.$$eval(".scroll, textarea", (boxes) => boxes.filter((box) => box.scrollHeight > box.clientHeight).map((box) => box.className || box.value)), []);
+  await screenshot(page, "report-printed");
+  assert.deepEqual(page.problems, []);
+  await page.close();
+});
