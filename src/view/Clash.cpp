@@ -102,6 +102,23 @@ std::string exactFinding(const ViewScene& scene, const Clash& clash) {
   return clash.isSelf() ? "The model may touch itself." : "Their shapes could not be examined.";
 }
 
+/// A number with five digits at least, all before the point, and so many behind it where that is more.
+std::string numberText(double value, int decimals) {
+  constexpr int kFewestDigits = 5;
+  constexpr int kMostDigits = 15;
+  constexpr int kSmallestWithoutExponent = -6;
+  if (value == 0.0) return "0";
+  if (std::isnan(value)) return "NaN";
+  if (std::isinf(value)) return value > 0.0 ? "∞" : "-∞";
+  const int exponent = static_cast<int>(std::floor(std::log10(std::abs(value))));
+  const int digits = std::clamp(exponent + 1 + decimals, kFewestDigits, kMostDigits);
+  if (exponent < kSmallestWithoutExponent || exponent >= kMostDigits) return fmt::format("{:.{}g}", value, digits);
+  std::string text = fmt::format("{:.{}f}", value, std::max(0, digits - 1 - exponent));
+  if (text.find('.') != std::string::npos) text.erase(text.find_last_not_of('0') + 1);
+  if (text.ends_with('.')) text.pop_back();
+  return text;
+}
+
 using BodyPair = std::pair<std::uint32_t, std::uint32_t>;
 
 /// The two bodies of a pair, in one order.
@@ -167,27 +184,15 @@ Clash clashOf(const ViewScene& scene, std::size_t index) {
   return clash;
 }
 
-std::string shortNumber(double value) {
-  constexpr int kFewestDigits = 5;
-  constexpr int kMostDigits = 15;
-  constexpr int kSmallestWithoutExponent = -6;
-  if (value == 0.0) return "0";
-  if (std::isnan(value)) return "NaN";
-  if (std::isinf(value)) return value > 0.0 ? "∞" : "-∞";
-  const int exponent = static_cast<int>(std::floor(std::log10(std::abs(value))));
-  const int digits = std::clamp(exponent + 1, kFewestDigits, kMostDigits);
-  if (exponent < kSmallestWithoutExponent || exponent >= kMostDigits) return fmt::format("{:.{}g}", value, digits);
-  std::string text = fmt::format("{:.{}f}", value, std::max(0, digits - 1 - exponent));
-  if (text.find('.') != std::string::npos) text.erase(text.find_last_not_of('0') + 1);
-  if (text.ends_with('.')) text.pop_back();
-  return text;
-}
+std::string shortNumber(double value) { return numberText(value, 0); }
 
 std::array<std::string, 3> coordinatesOf(const std::array<double, 3>& point) {
   constexpr double kNothing = 1e-9;
+  constexpr int kHundredths = 2;
   const double largest = std::max({std::abs(point[0]), std::abs(point[1]), std::abs(point[2])});
   std::array<std::string, 3> texts;
-  for (std::size_t i = 0; i < 3; ++i) texts[i] = shortNumber(std::abs(point[i]) <= kNothing * largest ? 0.0 : point[i]);
+  for (std::size_t i = 0; i < 3; ++i)
+    texts[i] = numberText(std::abs(point[i]) <= kNothing * largest ? 0.0 : point[i], kHundredths);
   return texts;
 }
 

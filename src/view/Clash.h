@@ -60,7 +60,8 @@ struct Clash {
 /// writes the same, but for the sign of what is below 0.
 [[nodiscard]] std::string shortNumber(double value);
 
-/// The coordinates of a point as short numbers; what is nothing beside the largest of them is 0.
+/// The coordinates of a point as short numbers, or with as many digits as it takes to tell hundredths apart; what is
+/// nothing beside the largest of them is 0. From 1e-6 to 1e15 coordinate() in web/src/format.js writes the same.
 [[nodiscard]] std::array<std::string, 3> coordinatesOf(const std::array<double, 3>& point);
 
 /// What the two of a row are called: by their bodies where it holds several pairs.

@@ -119,6 +119,20 @@ TEST(Finding, CoordinatesThatAreNothingBesideTheLargestAreZero) {
   EXPECT_EQ(view::coordinatesOf({1e-6, -1e-14, 1e-16}), (std::array<std::string, 3>{"0.000001", "-1e-14", "0"}));
 }
 
+TEST(Finding, CoordinatesFarFromTheOriginTellHundredthsApart) {
+  // The same list is in web/test/rules.test.mjs, for the page.
+  const std::vector<std::pair<double, std::string>> numbers{{123463.75, "123463.75"},
+                                                            {-5400123.456, "-5400123.46"},
+                                                            {999.996, "1000"},
+                                                            {1234.56, "1234.56"},
+                                                            {12.34567, "12.346"},
+                                                            {1e6, "1000000"},
+                                                            {123456789012.34, "123456789012.34"},
+                                                            {12345678901234.56, "12345678901234.6"}};
+  for (const auto& [value, text] : numbers)
+    EXPECT_EQ(view::coordinatesOf({value, value, value}), (std::array{text, text, text}));
+}
+
 /// Bodies of which one has two models, with three rows that are shown and a pair that is apart.
 ViewScene sceneOfBodies() {
   ViewScene scene;

@@ -3,7 +3,7 @@
 
 import { byId, button, fillWith, make, nameLine } from "./dom.js";
 import { findingOf, headingOf, placeOf, shortFinding, state, stateWords } from "./exact.js";
-import { cornersOf, counted, grouped, measure, reasonText, selfReasonText } from "./format.js";
+import { coordinate, cornersOf, counted, grouped, measure, reasonText, selfReasonText } from "./format.js";
 import { copyNames } from "./listed.js";
 import { hiddenMark, tagsOf } from "./lists.js";
 import { VirtualList } from "./list.js";
@@ -94,7 +94,7 @@ export class Details {
       if (id) cell.id = id;
       facts.append(make("dt", "", label), cell);
     };
-    const point = (p) => Array.from(p, (x) => measure(Math.abs(x) < 1e-12 * Math.max(...p.map(Math.abs)) ? 0 : x)).join(", ");
+    const point = (p) => Array.from(p, (x) => coordinate(Math.abs(x) <= 1e-9 * Math.max(...p.map(Math.abs)) ? 0 : x)).join(", ");
     if (finding.depth > 0) add("Depth", measure(finding.depth), "pair-depth");
     if (finding.state >= state.undecided && finding.state !== state.notExamined) add("Distance", measure(finding.distance), "pair-distance");
     if (finding.state !== state.notExamined) add("At", point(placeOf(finding)), "pair-place");

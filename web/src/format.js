@@ -10,13 +10,16 @@ export const grouped = (number) => grouping.format(number);
 export const counted = (number, one, more = `${one}s`) => `${grouped(number)} ${number === 1 ? one : more}`;
 
 /** A length or volume with as many digits as anybody reads, and all before the point: as shortNumber() in Clash.cpp. */
-export function measure(value, digits = 5) {
+export function measure(value, digits = 5, decimals = 0) {
   if (Number.isNaN(value)) return "NaN";
   if (!Number.isFinite(value)) return value > 0 ? "∞" : "−∞";
   const whole = value === 0 ? 1 : Math.floor(Math.log10(Math.abs(value))) + 1;
-  const text = String(Number(value.toPrecision(Math.min(15, Math.max(digits, whole)))));
+  const text = String(Number(value.toPrecision(Math.min(15, Math.max(digits, whole + decimals)))));
   return text.replace("-", "−");
 }
+
+/** A coordinate, with as many digits as it takes to tell hundredths apart: as coordinatesOf() in Clash.cpp. */
+export const coordinate = (value, digits = 5) => measure(value, digits, 2);
 
 export function seconds(value) {
   if (value < 1e-3) return `${measure(Number((value * 1e6).toPrecision(3)))} µs`;

@@ -2,7 +2,7 @@
 // The section plane: across an axis, what lies beyond it is not drawn.
 
 import { byId } from "./dom.js";
-import { measure } from "./format.js";
+import { coordinate } from "./format.js";
 
 const off = [0, 0, 0, 1]; // no point is beyond it
 
@@ -39,7 +39,7 @@ export class Section {
     plane[3] = sign * at;
     this.button.setAttribute("aria-pressed", this.isOn);
     byId("section-panel").hidden = !this.isOn;
-    const place = `${"xyz"[k]} ${this.isFlipped ? "≥" : "≤"} ${measure(at + data.origin[k], 4)}`;
+    const place = `${"xyz"[k]} ${this.isFlipped ? "≥" : "≤"} ${coordinate(at + data.origin[k], 4)}`;
     byId("section-place").textContent = place;
     this.slider.setAttribute("aria-valuetext", place);
     this.stage.setCut(this.isOn ? plane : off);

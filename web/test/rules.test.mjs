@@ -6,7 +6,7 @@ import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
 import { parseScene } from "../src/data.js";
-import { measure } from "../src/format.js";
+import { coordinate, measure } from "../src/format.js";
 import { ExactPairs, state } from "../src/exact.js";
 import { csvOf } from "../src/listed.js";
 import { masksOf } from "../src/lists.js";
@@ -81,6 +81,12 @@ test("numbers are written as in the report", () => {
   // The same list is in tests/view/PictureTest.cpp, for the report.
   const numbers = [[0, "0"], [0.125, "0.125"], [102360.7, "102361"], [4.97592, "4.9759"], [99999.6, "100000"], [-12.5, "−12.5"], [NaN, "NaN"], [1234.56, "1234.6"], [0.00012345678, "0.00012346"], [5.000000000000001, "5"], [1e9, "1000000000"], [0.1 + 0.2, "0.3"]];
   for (const [value, text] of numbers) assert.equal(measure(value), text);
+});
+
+test("coordinates are written as in the report", () => {
+  // The same list is in tests/view/ReportTextTest.cpp, for the report.
+  const numbers = [[123463.75, "123463.75"], [-5400123.456, "−5400123.46"], [999.996, "1000"], [1234.56, "1234.56"], [12.34567, "12.346"], [1e6, "1000000"], [123456789012.34, "123456789012.34"], [12345678901234.56, "12345678901234.6"]];
+  for (const [value, text] of numbers) assert.equal(coordinate(value), text);
 });
 
 test("a name that may be a formula is written as in the report's table", () => {
