@@ -19,7 +19,7 @@ export class PairTable {
     this.rows = hasBodies ? this.makeRows(bodyOf) : null;
   }
 
-  /** The entries of the same two bodies, for each entry of them: the worst first. */
+  /** The entries of the same two bodies, for each entry of them: the worst first, and none whose shapes are apart unless all are. */
   makeRows(bodyOf) {
     const rows = new Map();
     for (let entry = 0; entry < this.size; ++entry) {
@@ -33,12 +33,13 @@ export class PairTable {
       const isTested = this.exact !== null && entries[0] < this.found;
       if (isTested) this.exact.worstFirst(entries);
       else entries.sort((a, b) => this.volume(b) - this.volume(a) || a - b);
-      for (const entry of entries) rowOf[entry] = entries;
+      const listed = this.isApart(entries[0]) ? entries : entries.filter((entry) => !this.isApart(entry));
+      for (const entry of entries) rowOf[entry] = listed;
     }
     return rowOf;
   }
 
-  /** All entries of the row that an entry is in; it stands for them if it is the first. */
+  /** The entries of the row that an entry is in; it stands for them if it is the first. */
   rowOf(entry) {
     return this.rows?.[entry] ?? [entry];
   }

@@ -246,6 +246,27 @@ test("a picture opens the page at its pair, though names repeat", { skip }, asyn
   await page.close();
 });
 
+test("a row has the pairs of its parts that the report has, and none whose shapes are apart", { skip }, async () => {
+  const wedge = "o wedge\nv 3.5 3.5 9\nv 3.5 9 3.5\nv 9 9 9\nv 3.5 9 9\nf 1 2 3\nf 1 4 2\nf 2 4 3\nf 3 4 1\n"; // only its box meets the block
+  const two = [wedge + cuboid("bar", [3, 1, 1], [6, 2, 2]), wedge + cuboid("bar", [3, 1, 1], [6, 2, 2]) + cuboid("pin", [1, 1, 3], [2, 2, 5])];
+  for (const [i, parts] of two.entries()) {
+    const name = `apart-inside-${i}`;
+    const inputs = [write(`${name}-parts/block.obj`, cuboid("block", [0, 0, 0], [4, 4, 4])), write(`${name}-parts/parts.obj`, parts)];
+    const page = await report(name, inputs, "--group", "file", "--between-inputs");
+    assert.deepEqual(await column(page, "second"), [i === 0 ? "block" : "block.obj (worst of 2 pairs)"]);
+    await page.goto(`file://${join(folder, name, "view.html")}`);
+    await page.waitForFunction(() => document.documentElement.dataset.ready);
+    assert.deepEqual(await texts(page, "#pairs-list .tag"), i === 0 ? [] : ["2 pairs"]);
+    assert.equal((await texts(page, "#details .parts li")).length, i === 0 ? 0 : 2);
+    const csv = (await page.download(() => page.click("#pairs-csv"))).toString().trimEnd().split("\n").slice(1);
+    const rows = readFileSync(join(folder, name, "clashes.csv"), "utf8").trimEnd().split("\n").slice(1);
+    const begins = (lines) => lines.map((line) => line.split(",").slice(0, 4).join(","));
+    assert.deepEqual(begins(csv), begins(rows));
+    assert.deepEqual(page.problems, []);
+    await page.close();
+  }
+});
+
 test("without pairs, and without scripts, a report can be read", async () => {
   const input = write("far-apart.csv", "0,0,0,1,1,1\n5,5,5,6,6,6\n");
   const page = await report("nothing", [input]);
