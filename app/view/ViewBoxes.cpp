@@ -5,6 +5,9 @@
 #include <fmt/ranges.h>
 
 #include <filesystem>
+#include <string>
+#include <system_error>
+#include <vector>
 
 #include "cli/Text.h"
 #include "input/Inputs.h"
@@ -13,12 +16,24 @@ namespace allpairs::app {
 
 namespace flag = view::flag;
 
+namespace {
+
+/// The last name of a path; that of "." or ".." is the folder's, wherever one is.
+std::string lastNameOf(const std::filesystem::path& path) {
+  std::filesystem::path clean = path.lexically_normal();
+  if (!clean.has_filename()) clean = clean.parent_path();  // of "parts/"
+  const std::filesystem::path name = clean.filename();
+  if (name != "." && name != "..") return name.string();
+  std::error_code problem;
+  const std::filesystem::path whole = std::filesystem::canonical(path, problem);
+  return problem || !whole.has_filename() ? name.string() : whole.filename().string();
+}
+
+}  // namespace
+
 std::string titleOf(const InputSettings& input) {
   std::vector<std::string> names;
-  for (const std::string& path : input.paths) {
-    const std::filesystem::path clean = shownPath(input, path).lexically_normal();
-    names.push_back((clean.has_filename() ? clean : clean.parent_path()).filename().string());
-  }
+  for (const std::string& path : input.paths) names.push_back(lastNameOf(shownPath(input, path)));
   constexpr std::size_t kShown = 3;
   if (names.size() <= kShown) return fmt::format("{}", fmt::join(names, ", "));
   return fmt::format("{} and {} more", names.front(), names.size() - 1);

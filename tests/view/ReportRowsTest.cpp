@@ -415,5 +415,26 @@ TEST(ReportOfSeveralInputs, TestsShapesAlthoughOneOfThemIsAScene) {
 }
 #endif
 
+TEST(ReportTitle, OfTheFolderThatOneIsInIsItsName) {
+  const TempFolder folder;
+  folder.write("gears/a.obj", kTriangle);
+  folder.write("gears/left/b.obj", kTriangle);
+  const auto titleOf = [&](const std::string& from, const std::string& inputs) {
+    const std::string out = folder.path() / "out";
+    const std::string gears = folder.path() / "gears";
+    const std::string arguments = " --boxes --threads 1 " + inputs + " -o '" + out;
+    const std::string report = "\"$0\" report" + arguments + "' && \"$0\" view" + arguments + ".html'";
+    expectSuccess(runScript("cd '" + gears + "/" + from + "' && " + report));
+    const std::string page = readBytes(out + "/index.html");
+    const std::string title = page.substr(page.find("<h1>") + 4, page.find("</h1>") - page.find("<h1>") - 4);
+    EXPECT_NE(readBytes(out + ".html").find("\"title\":\"" + title + '"'), std::string::npos) << title;
+    return title;
+  };
+  EXPECT_EQ(titleOf("", "."), "gears");
+  EXPECT_EQ(titleOf("", "./ left/"), "gears, left");
+  EXPECT_EQ(titleOf("left", ".. ."), "gears, left");
+  EXPECT_EQ(titleOf("left", "../left/.. ../a.obj ./b.obj"), "gears, a.obj, b.obj");
+}
+
 }  // namespace
 }  // namespace allpairs::test
