@@ -290,6 +290,23 @@ test("a BCF that is not beside the page is said to be missing", async () => {
   await page.close();
 });
 
+test("long names without blanks do not make the page wider than its window", { skip }, async () => {
+  const name = (letter) => `${letter}_part_of_an_assembly:`.repeat(12);
+  const parts = ["a", "b", "c"].map((letter, i) => cuboid(name(letter), [2 * i, 0, 0], [2 * i + 3, 1, 1]));
+  const input = write("long-names.obj", parts.join(""));
+  await (await report("long-names", [input])).close();
+  write("long-names.obj", parts[0] + parts[1] + cuboid(name("c"), [20, 0, 0], [21, 1, 1])); // and one pair is gone
+  const page = await report("long-names", [input], "--since", join(folder, "long-names"));
+  await page.click("details:has-text('Resolved') summary");
+  for (const width of [1280, 400]) {
+    await page.setViewportSize({ width, height: 800 });
+    const wide = await page.$$eval("main *", (elements) => elements.filter((element) => !element.closest(".scroll") && (element.getBoundingClientRect().right > innerWidth || element.matches("p, li") && element.scrollWidth > element.clientWidth)).map((element) => element.outerHTML));
+    assert.deepEqual(wide, [], `${width} pixels`);
+  }
+  assert.deepEqual(page.problems, []);
+  await page.close();
+});
+
 test("on paper, which does not scroll, the table and long comments are whole", { skip }, async () => {
   const name = (i) => `part_${i}_of_the_assembly`;
   const parts = [0, 1, 2].map((i) => cuboid(name(i), [123456 + i / 4, 0, 0], [123457 + i / 4, 1, 1])).join("");
