@@ -10,16 +10,21 @@ import { addBall, addRod } from "./rods.js";
 const snapReach = 10; // pixels
 const thickness = 0.0025; // of the distance to the camera
 
+/** The corners of what was hit: where they are drawn, and where they are when nothing is moved apart. Those of a box are exact, as
+ * drawn they are in float32. */
+function cornersOf({ corners, model }, app, stage) {
+  const offset = new Vector3(...stage.offsets.of(model));
+  if (corners) return corners.map((corner) => ({ drawn: new Vector3(...corner).add(offset), inPlace: new Vector3(...corner) }));
+  const box = app.frame.boxes.subarray(6 * model, 6 * model + 6).map((value, k) => value - app.scene.origin[k % 3]);
+  const corner = (sides, i) => new Vector3(...[0, 1, 2].map((k) => sides[k + (i >> k & 1 ? 3 : 0)]));
+  return Array.from({ length: 8 }, (_, i) => ({ drawn: corner(stage.boxOf(model), i), inPlace: corner(box, i) }));
+}
+
 /** The corner of what was hit that is drawn next to a place of the window, or else the point itself. */
-function snapped(hit, stage, x, y) {
-  const box = stage.boxOf(hit.model);
-  const offset = new Vector3(...stage.offsets.of(hit.model));
-  const corners = hit.corners
-    ? hit.corners.map((corner) => new Vector3(...corner).add(offset))
-    : Array.from({ length: 8 }, (_, i) => new Vector3(...[0, 1, 2].map((k) => box[k + (i >> k & 1 ? 3 : 0)])));
-  const awayOf = (point) => Math.hypot(stage.pixelOf(point)[0] - x, stage.pixelOf(point)[1] - y);
-  const [nearest] = corners.sort((a, b) => awayOf(a) - awayOf(b));
-  return awayOf(nearest) <= snapReach ? nearest : hit.point;
+function snapped(hit, app, stage, x, y) {
+  const awayOf = ({ drawn }) => Math.hypot(stage.pixelOf(drawn)[0] - x, stage.pixelOf(drawn)[1] - y);
+  const [nearest] = cornersOf(hit, app, stage).sort((a, b) => awayOf(a) - awayOf(b));
+  return awayOf(nearest) <= snapReach ? nearest : { drawn: hit.point, inPlace: hit.point.clone().sub(new Vector3(...stage.offsets.of(hit.model))) };
 }
 
 export class Measure {
@@ -55,8 +60,7 @@ export class Measure {
     const hit = app.hitAt(x, y, onlyBoxes);
     if (!hit || (!hit.corners && !app.isFinite(hit.model))) return; // sides at infinity are drawn somewhere
     if (this.points.length === 2) this.points = [];
-    const drawn = snapped(hit, stage, x, y);
-    this.points.push({ drawn, inPlace: drawn.clone().sub(new Vector3(...stage.offsets.of(hit.model))) });
+    this.points.push(snapped(hit, app, stage, x, y));
     this.update();
   }
 

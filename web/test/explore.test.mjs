@@ -99,6 +99,17 @@ inBoth("bodies move apart and come back", { skip }, async () => {
   await page.close();
 });
 
+inBoth("corners of boxes are measured where they are, not where their picture in float32 has them", async () => {
+  const page = await view("measure-boxes", [write("wide.csv", "0,0,0,100000001,100000001,100000001\n")]);
+  const area = await page.locator("#canvas").boundingBox();
+  await page.keyboard.press("d");
+  const { highest, lowest } = await extent(page);
+  for (const [x, y] of [highest, lowest]) await page.mouse.click(area.x + x, area.y + y);
+  assert.equal(await page.textContent("#measure-result"), "173205082 (x 100000001, y 100000001, z 100000001)");
+  assert.deepEqual(page.problems, []);
+  await page.close();
+});
+
 inBoth("the distance of two corners is measured, also while bodies are apart", { skip }, async () => {
   const cubes = [cuboid("far", [-8, 8, 0], [-6, 10, 2]), cuboid("middle", [0, 0, 0], [2, 2, 2]), cuboid("near", [8, -8, 0], [10, -6, 2])];
   const page = await view("measure", [write("cubes.obj", cubes.join(""))], { exact: true });
