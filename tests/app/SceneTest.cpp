@@ -156,6 +156,21 @@ TEST(PartialInput, IsNotSilentInAPageOrAReport) {
   }
 }
 
+TEST(PartialInput, OfAFolderOfCadFilesTellsWhatIsLeftOut) {
+  const TempFolder folder;
+  std::filesystem::create_directory(folder.path() / "cad");
+  const std::string cad = folder.path() / "cad";
+  const std::string gear = folder.write("cad/gear.step", "ISO-10303-21;");
+  expectFailure(runProgram({"detect", cad, "--partial"}), 3, cad + ": no model of it can be placed or read");
+  const ProgramRun info = runProgram({"info", cad, "--partial"});
+  EXPECT_EQ(info.status, 0) << info.err;
+  EXPECT_NE(info.out.find("\n  " + gear + ": has the exact surfaces of a CAD program"), std::string::npos) << info.out;
+  const std::string part = folder.write("part.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  const ProgramRun both = runProgram({"detect", cad, part, "--partial", "--format", "json"});
+  EXPECT_EQ(both.status, 0) << both.err;
+  EXPECT_EQ(Json::parse(both.out)["models"].size(), 1U);
+}
+
 TEST(DetectScene, AMeshThatIsNotThereTellsWhereElseToSay) {
   const TempFolder folder;
   const std::string scene = folder.write("mesh.scn", R"(<Node name="root"><CollisionPipeline/><BruteForceDetection/>

@@ -322,6 +322,20 @@ TEST(MeshFolder, AMeshOfAFormatThatIsNotReadIsAnErrorUnlessPartial) {
   }
 }
 
+TEST(MeshFolder, OfWhichAllIsLeftOutTellsWhatAndWhy) {
+  const TempFolder folder;
+  folder.write("gear.STEP", "ISO-10303-21;");
+  folder.write("readme.txt", "hello");
+  const scene::Scene scene = scene::readInput(folder.path(), {.partial = true});
+  EXPECT_TRUE(scene.models.empty());
+  ASSERT_EQ(scene.remarks.size(), 2U);
+  EXPECT_FALSE(scene.remarks[0].isPartial);
+  EXPECT_TRUE(scene.remarks[1].isPartial);
+  EXPECT_EQ(textOf(scene.remarks[1]).find((folder.path() / "gear.STEP").string() + ": has the exact surfaces"), 0U);
+  std::filesystem::remove(folder.path() / "gear.STEP");
+  expectFileError([&] { (void)scene::readInput(folder.path(), {.partial = true}); }, "is a folder without mesh files");
+}
+
 TEST(MeshFolder, WhatMacOsKeepsBesideAFileIsNoMesh) {
   const TempFolder folder;
   const std::string mesh = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";

@@ -267,7 +267,9 @@ Scene readMeshFolder(const fs::path& path, const ReadOptions& options) {
   MeshSearch search(options, scene.remarks);
   search.look(path);
   const std::vector<fs::path>& meshes = search.meshes();
-  if (meshes.empty()) {
+  const bool isAnyLeftOut =
+      std::any_of(scene.remarks.begin(), scene.remarks.end(), [](const Remark& remark) { return remark.isPartial; });
+  if (meshes.empty() && !isAnyLeftOut) {
     const bool isHint = search.hasPassedOverFolders() && !options.recursive;
     const char* hint = isHint ? "; --recursive of detect, info, view and report searches those within it, too" : "";
     throw FileError(path, "is a folder without mesh files" + std::string(hint));
