@@ -116,6 +116,16 @@ std::optional<std::pair<dev_t, ino_t>> identityOf(const std::filesystem::path& p
   return std::pair(status.st_dev, status.st_ino);
 }
 
+/// What 'allpairs info --partial' needs besides the inputs to read the same, each word behind a blank.
+std::string wordsOfReading(const InputSettings& settings) {
+  std::string words = settings.recursive ? " --recursive" : "";
+  for (const std::string& folder : settings.searchRoots) words += " --data " + shellWord(folder);
+  if (!settings.sofa.empty()) words += " --sofa " + shellWord(settings.sofa);
+  if (settings.limits.allowOutside) words += " --allow-outside";
+  if (!settings.limits.maxMemory.empty()) words += " --max-memory " + shellWord(settings.limits.maxMemory);
+  return words;
+}
+
 }  // namespace
 
 scene::ReadOptions readOptions(const ReadLimits& limits) {
@@ -216,16 +226,19 @@ void warnOfPart(const InputSettings& settings, const scene::Scene& scene) {
                                    [](const scene::Remark& remark) { return remark.isPartial; });
   if (count == 0) return;
   if (scene.models.empty()) {
-    throw FileError(settings.paths.front(),
-                    "no model of it can be placed or read, and nothing is left: 'allpairs info "
-                    "--partial' lists why");
+    throw FileError(
+        settings.paths.front(),
+        fmt::format("no model of it can be placed or read, and nothing is left: 'allpairs info --partial{}' "
+                    "lists why",
+                    wordsOfReading(settings)));
   }
   std::vector<std::string> words;
   for (const std::string& path : settings.paths) words.push_back(shellWord(path));
   const std::string paths = fmt::format("{}", fmt::join(words, " "));
   const std::string inputs = settings.spooled == nullptr ? paths : settings.spooled->shownIn(paths);
-  warn(fmt::format("{}: {} left out; 'allpairs info --partial {}' lists {}", inputs,
-                   counted(static_cast<std::uint64_t>(count), "model"), inputs, count == 1 ? "it" : "them"));
+  warn(fmt::format("{}: {} left out; 'allpairs info --partial{} {}' lists {}", inputs,
+                   counted(static_cast<std::uint64_t>(count), "model"), wordsOfReading(settings), inputs,
+                   count == 1 ? "it" : "them"));
 }
 
 void warnOfEmpty(const InputSettings& settings, const scene::EmptyBoxes& boxes, std::size_t each, const char* part) {

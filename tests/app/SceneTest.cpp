@@ -171,6 +171,29 @@ TEST(PartialInput, OfAFolderOfCadFilesTellsWhatIsLeftOut) {
   EXPECT_EQ(Json::parse(both.out)["models"].size(), 1U);
 }
 
+TEST(PartialInput, TheCommandThatListsWhatIsLeftOutReadsTheSame) {
+  const TempFolder folder;
+  std::filesystem::create_directories(folder.path() / "parts" / "more");
+  std::filesystem::create_directory(folder.path() / "other folder");
+  const std::string parts = folder.path() / "parts";
+  const std::string data = folder.path() / "other folder";
+  const std::string broken = folder.write("parts/more/broken.obj", "v 0 0\n");
+  const std::vector<std::string> options{"--recursive",     "--data",       data,  "--sofa", "22.06",
+                                         "--allow-outside", "--max-memory", "64M", parts};
+  const auto run = [&](std::vector<std::string> words) {
+    words.insert(words.end(), options.begin(), options.end());
+    return runProgram(words);
+  };
+  const std::string shown =
+      "'allpairs info --partial --recursive --data '" + data + "' --sofa 22.06 --allow-outside --max-memory 64M";
+  expectFailure(run({"detect", "--partial"}), 3, shown + "' lists why");
+  folder.write("parts/part.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  EXPECT_EQ(run({"detect", "--partial"}).err,
+            "allpairs: warning: " + parts + ": 1 model left out; " + shown + " " + parts + "' lists it\n");
+  const ProgramRun info = run({"info", "--partial"});
+  EXPECT_NE(info.out.find("\n  " + broken + ":1: "), std::string::npos) << info.out;
+}
+
 TEST(DetectScene, AMeshThatIsNotThereTellsWhereElseToSay) {
   const TempFolder folder;
   const std::string scene = folder.write("mesh.scn", R"(<Node name="root"><CollisionPipeline/><BruteForceDetection/>
