@@ -184,7 +184,9 @@ def floats(name: str, value: npt.ArrayLike) -> npt.NDArray[Any]:
         return np.array(number(name, array.item()))
     native = array.dtype.newbyteorder("=")
     if native == np.float32 or native == np.float64:
-        return array.astype(native, copy=False)
+        plain = array.astype(native, copy=False)
+        # One whose type names this machine's order, "<", is left as it is, and its buffer names the order too.
+        return plain if plain.dtype.byteorder == "=" else plain.view(native)
     if native == np.float16:
         return array.astype(np.float32)
     if array.dtype.names is not None:

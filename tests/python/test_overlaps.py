@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: MIT
 """Pairs of one set and of two: every dtype, layout, distance, order, strategy and number of threads."""
 
+import ctypes
 import gc
+import sys
 
 import allpairs
 import numpy as np
@@ -31,6 +33,26 @@ def test_other_dtypes_are_taken_exactly_or_refused(dtype, boxes):
             allpairs.overlaps(lower.astype(dtype), upper)
     else:
         assert_pairs(allpairs.overlaps(lower.astype(dtype), upper.astype(dtype)), every_pair(lower, upper))
+
+
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+def test_types_that_name_the_byte_order_of_this_machine_are_taken_without_a_copy(dtype, boxes):
+    here = np.dtype(dtype).newbyteorder("<" if sys.byteorder == "little" else ">")
+    rows = np.hstack(boxes).astype(dtype)
+    named = rows.view(here)
+    assert memoryview(named).format == here.byteorder + memoryview(rows).format
+    assert_pairs(allpairs.overlaps(named), every_pair(rows[:, :3], rows[:, 3:]))
+    assert_pairs(allpairs.overlaps(named[:, :3], named[:, 3:]), every_pair(rows[:, :3], rows[:, 3:]))
+    margin = np.ones(len(rows), dtype)
+    assert_pairs(allpairs.overlaps(rows, margin=margin.view(here)), allpairs.overlaps(rows, margin=margin))
+    assert np.shares_memory(_arguments.floats("lower", named), rows)
+
+
+def test_arrays_of_ctypes_are_boxes():
+    rows = np.array([[0.0, 0, 0, 2, 2, 2], [1, 1, 1, 3, 3, 3], [9, 9, 9, 9, 9, 9]])
+    for kind in (ctypes.c_float, ctypes.c_double):
+        memory = ((kind * 6) * 3)(*[(kind * 6)(*row) for row in rows])
+        assert allpairs.overlaps(memory).tolist() == [[0, 1]]
 
 
 def test_integers_that_float64_does_not_hold_are_refused():
