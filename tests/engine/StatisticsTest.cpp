@@ -432,6 +432,19 @@ TEST(Statistics, AWorldWhoseBoxesChangePlacesMakesItsOrderAnew) {
   EXPECT_EQ(test::toVector(world.result().pairs), test::toVector(fresh.result().pairs));
 }
 
+TEST(Statistics, AWorldOfWhichATenthGoesElsewhereMakesItsOrderAnewBeforeItJoinsThem) {
+  std::vector<BoxF> boxes = test::randomBoxes(4000, 76);
+  World world;
+  const std::vector<BoxId> ids = world.add(BoxView(boxes));
+  (void)world.step();
+  std::mt19937 generator(77);
+  std::shuffle(boxes.begin(), boxes.begin() + 400, generator);
+  world.move(std::span(ids).first(400), std::span(boxes).first(400));
+  EXPECT_EQ(test::toVector(world.step().pairs), test::oracle(test::toDouble(boxes)));
+  EXPECT_FALSE(world.statistics().joinedAll);
+  EXPECT_EQ(world.statistics().rebuilds, 2U);
+}
+
 TEST(Statistics, AWorldWhoseBoxesStayNearKeepsItsOrder) {
   std::vector<BoxF> boxes = test::randomBoxes(4000, 73);
   World world;

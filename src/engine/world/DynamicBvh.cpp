@@ -18,6 +18,10 @@ constexpr std::size_t kFewInAnyOrder = 4 * kFanOut;
 /// the boxes and joining them then takes less time than joining them.
 constexpr double kMostSpread = 2.0;
 
+/// If one box in this many has changed, the blocks may have become so wide: where those boxes have gone elsewhere, joining
+/// them with all takes at least as long as a join after ordering all. Of fewer, RebuildRule counts the losses.
+constexpr std::size_t kShareThatWidens = 256;
+
 /// Reads sixteen boxes, of which those with a bit in `used` exist, and are not empty, into lanes; the others become
 /// lanes that overlap nothing. Returns whether the lanes are exactly the boxes.
 bool readLanes(const BoxReader& reader, const std::uint32_t* ids, std::uint32_t used, LaneBlock& lanes) {
@@ -75,8 +79,9 @@ void DynamicBvh::build(std::span<BoxHome> homes, const BoxReader& reader, Execut
 bool DynamicBvh::refit(std::span<BoxHome> homes, const BoxReader& reader, Executor& executor) {
   if (!m_fresh.empty()) placeFresh(homes, reader, executor);
   const bool haveManyChanged = m_dirtyBoxes * kShareOfChange >= m_size;
+  const bool mayBeWide = m_dirtyBoxes * kShareThatWidens >= m_size;
   haveManyChanged ? readAll(reader, executor) : readDirty(reader, executor);
-  return !haveManyChanged || !m_isOrdered || spread() <= kMostSpread * m_spread;
+  return !mayBeWide || !m_isOrdered || spread() <= kMostSpread * m_spread;
 }
 
 /// Gives the boxes without a place the next ones, in curve order.
