@@ -21,7 +21,8 @@ struct OverlapStatistics {
   std::uint64_t boxTests = 0;    ///< Tests of two boxes, each in one lane of a vector.
   std::uint64_t groupTests = 0;  ///< Tests of the bounds of two groups, or of a box and a group.
   std::uint64_t exactTests = 0;  ///< Candidates that float32 could not decide, and that were tested in double; not
-                                 ///< counted where few boxes are compared one by one or as they lie in memory.
+                                 ///< counted where few boxes are compared one by one or as they lie in memory, and
+                                 ///< none where bounds take so few values that each has a float32 of its own.
 };
 
 /// Receives pairs in batches; the span is valid during the call only.

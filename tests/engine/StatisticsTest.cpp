@@ -106,10 +106,12 @@ TEST(Statistics, SearchesForNeighborsAndForManyPartnersCountTheirTests) {
   }
 }
 
-/// So many boxes end a hair, in float32 nothing, more than a distance before the others begin.
+/// So many boxes end a hair, in float32 nothing, more than a distance before the others begin; each begins elsewhere on
+/// another axis, so that bounds do not take few values.
 std::vector<Box> aHairApart(std::size_t ending, std::size_t beginning, double distance = 0.0) {
   std::vector<Box> boxes(ending, Box{{-1, 0, 0}, {0.1, 1, 1}});
   boxes.resize(ending + beginning, Box{{std::nextafter(0.1 + distance, 1.0), 0, 0}, {2, 1, 1}});
+  for (std::size_t i = 0; i < boxes.size(); ++i) boxes[i].min[1] -= 1e-4 * static_cast<double>(i);
   return boxes;
 }
 

@@ -123,6 +123,7 @@ void Search::shrink() noexcept {
   m_bySecond.release();
   m_rows.release();
   m_columns.release();
+  m_fewValues.release();
   m_cull = BoxCull(m_memory);
   m_first = BvhBuilder(m_memory);
   m_second = BvhBuilder(m_memory);
@@ -149,10 +150,11 @@ void Search::begin(const Sets& sets, const OverlapOptions& options) {
 
 Search::Plan Search::planOf(const Sets& sets, const OverlapOptions& options, Order order) {
   begin(sets, options);
-  Plan plan{sets, order, {PairTest::of(sets, options), m_kernels}};
+  const Sets& read = m_fewValues.of(sets, options, *m_executor);
+  Plan plan{read, order, {PairTest::of(read, options), m_kernels}};
   plan.sink.maxPairs = options.maxPairs;
   plan.sink.stop = options.stop;
-  Readers readers = Readers::of(sets, options, *m_kernels);
+  Readers readers = Readers::of(read, options, *m_kernels);
   if (!sets.one && options.strategy != Strategy::Exhaustive) m_cull.apply(readers.first, readers.second, *m_executor);
   std::size_t likelyPairs = 0;
   const bool flat = choosesFlat(readers, options, likelyPairs);

@@ -13,6 +13,7 @@
 #include "allpairs/Overlaps.h"
 #include "bvh/BvhBuilder.h"
 #include "input/BoxCull.h"
+#include "input/FewValues.h"
 #include "input/Options.h"
 #include "input/Readers.h"
 #include "order/PairSort.h"
@@ -140,6 +141,7 @@ class Search {
 
   Buffer<LaneTile> m_rows{m_memory};
   Buffer<LaneTile> m_columns{m_memory};
+  FewValues m_fewValues{m_memory};
   BoxCull m_cull{m_memory};
   BvhBuilder m_first{m_memory};
   BvhBuilder m_second{m_memory};

@@ -45,11 +45,14 @@ void Search::stream(const Sets& sets, const OverlapOptions& options, PairVisitor
     return;
   }
   begin(sets, options);
-  std::size_t likelyPairs = 0;
-  const Readers readers = Readers::of(sets, options, *m_kernels);
-  if (options.order != Order::Unordered && !choosesFlat(readers, options, likelyPairs)) {
-    streamInRanges(sets, options, readers, give);
-    return;
+  if (options.order != Order::Unordered) {
+    std::size_t likelyPairs = 0;
+    const Sets& read = m_fewValues.of(sets, options, *m_executor);
+    const Readers readers = Readers::of(read, options, *m_kernels);
+    if (!choosesFlat(readers, options, likelyPairs)) {
+      streamInRanges(read, options, readers, give);
+      return;
+    }
   }
   // Full batches are passed on at once; the rest waits for the next pairs.
   const auto giveFull = [&](std::span<Pair> pairs, std::size_t) {
