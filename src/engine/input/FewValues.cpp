@@ -97,7 +97,7 @@ void FewValues::Values::assign(double span) {
   const std::span<const double> values = finite();
   for (const double value : values) {
     const double place = span > 0.0 ? (0.5 * value - 0.5 * values.front()) / span : 0.0;
-    const float image = std::max(static_cast<float>(place), next);
+    const float image = std::max(static_cast<float>(1.0 + place), next);
     slot(value).image = image;
     next = std::nextafter(image, kLaneMax);
   }

@@ -49,7 +49,8 @@ class FewValues {
     /// than any double.
     double sort();
 
-    /// Gives each value its float32: `span` becomes 1, infinities the least and the greatest.
+    /// Gives each value its float32: the least finite one becomes 1, what is `span` greater 2, so that all are in normal
+    /// range; infinities become the least and the greatest.
     void assign(double span);
 
     /// Of a value that was added.
