@@ -129,7 +129,11 @@ void addBoxSets(CLI::App& command, BoxSetArguments& arguments) {
       command.add_option("BOXES", arguments.paths, "One or more .npy files of boxes")->required();
   command.add_option("--with", arguments.with, "Files of a second set: pairs of a box of BOXES and a box of these")
       ->type_name("FILE");
-  command.parse_complete_callback([&command, boxes] {
+  command.parse_complete_callback([&command, &arguments, boxes] {
+    for (const auto* names : {&arguments.paths, &arguments.with}) {
+      if (std::find(names->begin(), names->end(), "-") == names->end()) continue;
+      throw UsageError("'-': files are read in pieces, more than once, and so not from standard input");
+    }
     const std::vector<CLI::Option*>& given = command.parse_order();
     const auto ofFiles =
         std::find_if(given.begin(), given.end(), [](const auto* option) { return isOfFiles(*option); });

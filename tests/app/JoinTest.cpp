@@ -241,6 +241,8 @@ TEST_F(JoinCommand, WrongUsageIsSaid) {
                 "--memory: 'much' is not a size");
   expectFailure(runProgram({"join", few, "-o", in("x.npy"), "--memory", "63M"}), kWrongUsage,
                 "--memory: '63M' is less than the least, 64M");
+  expectFailure(runProgram({"join", "-", "--count"}), kWrongUsage, "'-': files are read in pieces");
+  expectFailure(runProgram({"plan", few, "--with", "-"}), kWrongUsage, "'-': files are read in pieces");
   expectFailure(runProgram({"join", in("missing.npy"), "--count"}), kBadInput, "missing.npy: no such file");
   EXPECT_FALSE(fs::exists(in("missing.npy.work")));
 }
