@@ -20,6 +20,7 @@
 #include "allpairs/Worlds.h"
 #include "support/Boxes.h"
 #include "support/Corners.h"
+#include "support/Numbers.h"
 #include "support/Oracle.h"
 #include "support/Sanitizers.h"
 

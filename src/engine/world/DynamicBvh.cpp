@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
+#include <limits>
 
 #include "input/Parts.h"
 
@@ -17,6 +19,10 @@ constexpr std::size_t kFewInAnyOrder = 4 * kFanOut;
 /// after the reset of a simulation: so much wider are eight blocks in any order, and fewer lose little by it. Ordering
 /// the boxes and joining them then takes less time than joining them.
 constexpr double kMostSpread = 2.0;
+
+/// A block counts as no wider than this many times most blocks: a few that reach far, as to boxes that are kept far away
+/// until they are used, or to infinity, are no measure of the order of all.
+constexpr double kFarReaching = 16.0;
 
 /// If one box in this many has changed, the blocks may have become so wide: where those boxes have gone elsewhere, joining
 /// them with all takes at least as long as a join after ordering all. Of fewer, RebuildRule counts the losses.
@@ -35,6 +41,31 @@ bool readLanes(const BoxReader& reader, const std::uint32_t* ids, std::uint32_t 
     forEachBit(~unused & 0xFFFFU, [&](std::size_t i) { read.exact &= reader.read({ids + i, 0, 1}, one).exact; });
   }
   return read.exact;
+}
+
+/// The sum of the sides of a block of boxes; 0 if all of these are empty.
+double widthOf(const Level& bounds, std::size_t block) {
+  const LaneBox box = bounds.blocks[block / kFanOut].get(block % kFanOut);
+  if (box.bound[0] > box.bound[3]) return 0.0;
+  double width = 0.0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    width += static_cast<double>(box.bound[axis + 3]) - static_cast<double>(box.bound[axis]);
+  }
+  return width;
+}
+
+/// The most that a block counts as wide, from the geometric mean of all, which a few hardly change.
+double mostWidthOf(const Level& bounds) {
+  double sum = 0.0;
+  std::size_t count = 0;
+  for (std::size_t b = 0; b < bounds.size; ++b) {
+    const double width = widthOf(bounds, b);
+    if (!(width > 0.0) || !std::isfinite(width)) continue;
+    sum += std::log2(width);
+    ++count;
+  }
+  if (count == 0) return std::numeric_limits<double>::infinity();
+  return kFarReaching * std::exp2(sum / static_cast<double>(count));
 }
 
 }  // namespace
@@ -73,6 +104,7 @@ void DynamicBvh::build(std::span<BoxHome> homes, const BoxReader& reader, Execut
   m_rule.start();
   placeFresh(homes, reader, executor);
   readAll(reader, executor);
+  if (m_isOrdered) m_mostWidth = mostWidthOf(view().level[1]);
   m_spread = spread();
 }
 
@@ -146,13 +178,7 @@ double DynamicBvh::spread() const noexcept {
   if (!m_isOrdered) return 0.0;
   const Level& bounds = view().level[1];
   double sum = 0.0;
-  for (std::size_t b = 0; b < bounds.size; ++b) {
-    const LaneBox box = bounds.blocks[b / kFanOut].get(b % kFanOut);
-    if (box.bound[0] > box.bound[3]) continue;  // All its boxes are empty.
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      sum += static_cast<double>(box.bound[axis + 3]) - static_cast<double>(box.bound[axis]);
-    }
-  }
+  for (std::size_t b = 0; b < bounds.size; ++b) sum += std::min(m_mostWidth, widthOf(bounds, b));  // NaN is the most.
   return sum;
 }
 

@@ -80,6 +80,7 @@ class DynamicBvh {
   std::pmr::memory_resource* m_memory;
   bool m_isExact = true;
   bool m_isOrdered = false;  ///< Whether the boxes are in curve order.
+  double m_mostWidth = 0.0;  ///< The most that a block counts as wide.
   double m_spread = 0.0;     ///< How wide the blocks were when they were put in order.
   BvhLevels m_levels{m_memory};
   RebuildRule m_rule;
