@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -180,6 +181,24 @@ TEST(FewValues, AreForgottenByTheNextSearch) {
     ASSERT_EQ(std::vector<Pair>(found.begin(), found.end()), test::oracle(boxes)) << seed;
     if (seed % 4 == 1) search.shrink();
   }
+}
+
+/// As many values as there may be of 2,500 boxes, which all hash to one of the 256 slots (input/FewValues.cpp): they would
+/// be looked for one after the other.
+TEST(FewValues, ChosenToCollideAreLeftAsTheyAre) {
+  std::uint64_t inverse = 0x9E3779B97F4A7C15ULL;  // Newton's method: each step doubles the bits that are right.
+  for (int step = 0; step < 6; ++step) inverse *= 2 - 0x9E3779B97F4A7C15ULL * inverse;
+  std::vector<double> colliding;
+  for (std::uint64_t i = 0; colliding.size() < 98; ++i) {
+    const auto value = std::bit_cast<double>(((std::uint64_t{77} << 56U) + i) * inverse);
+    if (std::isfinite(value)) colliding.push_back(value);
+  }
+  std::sort(colliding.begin(), colliding.end());
+  const std::vector<Box> boxes = boxesOf({{colliding, colliding, colliding}}, 2500, 8);
+  OverlapSearch search;
+  const Span<const Pair> found = search.find(boxes);
+  EXPECT_EQ(std::vector<Pair>(found.begin(), found.end()), test::oracle(boxes));
+  EXPECT_GT(search.statistics().exactTests, 0U);
 }
 
 /// The limit of values, which grows with the number of boxes, is met by the values of the last box: it is one more, so

@@ -22,6 +22,10 @@ std::size_t mostValuesOf(std::size_t boxes) noexcept {
   return std::min(static_cast<std::size_t>(2.0 * std::sqrt(static_cast<double>(boxes))), std::size_t{1} << 13);
 }
 
+/// In a table that is at most half full, values are hardly ever so far from the slot that they hash to, unless somebody
+/// has chosen them for that.
+constexpr std::size_t kMostLooks = 64;
+
 /// The most boxes in a sample.
 constexpr std::size_t kMostSampled = 512;
 
@@ -56,21 +60,24 @@ void FewValues::Values::start(std::size_t most) {
   m_size = 0;
 }
 
-/// Where a value is, or where it has its place. There are always free slots.
-FewValues::Values::Slot& FewValues::Values::slot(double value) const noexcept {
+/// Where a value is, or where it has its place; null if that is not near.
+FewValues::Values::Slot* FewValues::Values::slot(double value) const noexcept {
   // Fibonacci hashing (Knuth, "The Art of Computer Programming", volume 3, 6.4); -0 + 0 is 0.
   const std::uint64_t hash = std::bit_cast<std::uint64_t>(value + 0.0) * 0x9E3779B97F4A7C15ULL;
   const std::size_t last = (std::size_t{1} << m_bits) - 1;
   std::size_t i = hash >> (64U - m_bits);
-  while (m_slots[i].isTaken && m_slots[i].value != value) i = (i + 1) & last;
-  return m_slots[i];
+  for (std::size_t looks = 0; looks < kMostLooks; ++looks, i = (i + 1) & last) {
+    if (!m_slots[i].isTaken || m_slots[i].value == value) return &m_slots[i];
+  }
+  return nullptr;
 }
 
 bool FewValues::Values::add(double value) {
-  Slot& place = slot(value);
-  if (place.isTaken) return true;
+  Slot* const place = slot(value);
+  if (place == nullptr) return false;
+  if (place->isTaken) return true;
   if (m_size == m_most) return false;
-  place = {value, 0.0F, true};
+  *place = {value, 0.0F, true};
   m_sorted[m_size++] = value;
   return true;
 }
@@ -91,14 +98,14 @@ double FewValues::Values::sort() {
 
 void FewValues::Values::assign(double span) {
   for (const double infinite : {m_sorted[0], m_sorted[m_size - 1]}) {
-    if (std::isinf(infinite)) slot(infinite).image = infinite < 0.0 ? -kLaneMax : kLaneMax;
+    if (std::isinf(infinite)) slot(infinite)->image = infinite < 0.0 ? -kLaneMax : kLaneMax;
   }
   float next = 0.0F;
   const std::span<const double> values = finite();
   for (const double value : values) {
     const double place = span > 0.0 ? (0.5 * value - 0.5 * values.front()) / span : 0.0;
     const float image = std::max(static_cast<float>(1.0 + place), next);
-    slot(value).image = image;
+    slot(value)->image = image;
     next = std::nextafter(image, kLaneMax);
   }
 }

@@ -42,7 +42,7 @@ class FewValues {
     /// Forgets all; from now on holds at most so many.
     void start(std::size_t most);
 
-    /// Returns whether there is room for the value, if it is not there.
+    /// Returns whether there is room for the value, if it is not there, near the place that it hashes to.
     bool add(double value);
 
     /// Sorts the values; returns the difference of the least and the greatest that are finite, halved: it may be more
@@ -54,7 +54,7 @@ class FewValues {
     void assign(double span);
 
     /// Of a value that was added.
-    [[nodiscard]] float of(double value) const noexcept { return slot(value).image; }
+    [[nodiscard]] float of(double value) const noexcept { return slot(value)->image; }
 
     void release() noexcept;
 
@@ -65,7 +65,7 @@ class FewValues {
       bool isTaken;
     };
 
-    [[nodiscard]] Slot& slot(double value) const noexcept;
+    [[nodiscard]] Slot* slot(double value) const noexcept;
     [[nodiscard]] std::span<double> finite() const noexcept;
 
     Buffer<Slot> m_slots;
