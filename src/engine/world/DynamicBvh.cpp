@@ -20,8 +20,8 @@ constexpr std::size_t kFewInAnyOrder = 4 * kFanOut;
 /// the boxes and joining them then takes less time than joining them.
 constexpr double kMostSpread = 2.0;
 
-/// A block counts as no wider than this many times most blocks: a few that reach far, as to boxes that are kept far away
-/// until they are used, or to infinity, are no measure of the order of all.
+/// A block counts as no wider than this many times the geometric mean of all. A few reach far, to infinity or to boxes
+/// that are kept far away until they are used; they say nothing about the order of the others.
 constexpr double kFarReaching = 16.0;
 
 /// If one box in this many has changed, the blocks may have become so wide: where those boxes have gone elsewhere, joining
